@@ -1,0 +1,16 @@
+# Script: writes OUTPUT, a C++ unit that holds the text of every file in SOURCES and defines SYMBOL() (see SwardShaders).
+
+set(body "// Generated.\n#include <${HEADER}>\n\nnamespace {\n\n")
+set(table "")
+set(index 0)
+foreach(source IN LISTS SOURCES)
+  get_filename_component(name "${source}" NAME)
+  file(READ "${source}" text HEX)
+  string(REGEX REPLACE "(..)" "'\\\\x\\1'," bytes "${text}")
+  string(APPEND body "constexpr char k_text_${index}[] = {${bytes}0};\n")
+  string(APPEND table "    {\"${name}\", {k_text_${index}, sizeof k_text_${index} - 1}},\n")
+  math(EXPR index "${index} + 1")
+endforeach()
+string(APPEND body "constexpr sward::EmbeddedText k_table[] = {\n${table}};\n\n}  // namespace\n\n")
+string(APPEND body "std::span<const sward::EmbeddedText> ${SYMBOL}() { return k_table; }\n")
+file(WRITE "${OUTPUT}" "${body}")

@@ -1,0 +1,33 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sward/gl/handles.h>
+#include <sward/terrain/color_map.h>
+#include <sward/terrain/height_field.h>
+
+namespace sward::gl {
+
+/// The ground's static textures: the base map twice (decoded and mipmapped for shading, raw for classification; one
+/// storage, two views) and the slope map. GL thread.
+class GroundTextures {
+ public:
+  /// Uploads copies; the arguments may go away afterwards. Fails when a map exceeds the device's texture size.
+  static Expected<GroundTextures> create(const HeightField& field, const ColorMap& colors);
+
+  GLuint base_map() const { return base_map_.id(); }          ///< SRGB8_ALPHA8, trilinear, clamped
+  GLuint base_map_raw() const { return base_map_raw_.id(); }  ///< RGBA8 view, level 0, for texelFetch
+  GLuint slope_map() const { return slope_map_.id(); }        ///< RG16F, trilinear, clamped
+  glm::dvec2 map_min() const { return map_min_; }             ///< World x, y of the base map's western, southern corner
+  glm::dvec2 map_size() const { return map_size_; }           ///< Metres
+  glm::dvec2 field_min() const { return field_min_; }         ///< Outer edge of the slope map's texels
+  glm::dvec2 field_size() const { return field_size_; }
+  glm::ivec2 texels() const { return texels_; }               ///< Base map, width and height
+
+ private:
+  Texture base_map_, base_map_raw_, slope_map_;
+  glm::dvec2 map_min_{0}, map_size_{1}, field_min_{0}, field_size_{1};
+  glm::ivec2 texels_{1};
+};
+
+}  // namespace sward::gl

@@ -1,0 +1,55 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <sward/gl/handles.h>
+#include <vector>
+
+namespace sward::gl {
+
+/// Every file of shaders/, embedded at build time ("grass_blade.tese.glsl").
+std::span<const EmbeddedText> embedded_shaders();
+
+/// Resolves `#include "name"` (each file once) and marks lines with `#line`; file numbers are indices into `files`.
+/// The one resolver for build and run time.
+struct ResolvedSource {
+  std::string text;
+  std::vector<std::string> files;
+};
+
+struct Define {
+  std::string name, value;
+};
+
+/// One program: file names by stage (empty: absent) and variants as defines.
+struct ProgramDesc {
+  std::string name;  ///< For messages and the debug label.
+  std::string vertex, tess_control, tess_evaluation, geometry, fragment;
+  std::vector<Define> defines;
+  /// Captured outputs when they are not laid out in the shader by xfb_buffer; normally empty.
+  std::vector<const char*> feedback_varyings;
+};
+
+/// Where shader text comes from: files of an override directory first when one is set (for reloading), then further
+/// sources that the host registered (its own plant kinds), then the embedded ones.
+class ShaderLibrary {
+ public:
+  ShaderLibrary() = default;
+  explicit ShaderLibrary(std::string override_directory) : override_directory_(std::move(override_directory)) {}
+  void add_source(std::string name, std::string text);
+
+  Expected<ResolvedSource> resolve(std::string_view file, std::span<const Define> defines) const;
+  /// Compiles and links. On failure: an error with the stage's file and the driver's log, file numbers replaced by
+  /// names. Begins every stage with `#version 450 core` and the defines. GL thread.
+  Expected<Program> build(const ProgramDesc& desc) const;
+
+ private:
+  Expected<std::string> find(std::string_view file) const;
+  std::string override_directory_;
+  std::vector<std::pair<std::string, std::string>> sources_;
+};
+
+}  // namespace sward::gl

@@ -1,0 +1,120 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <sward/terrain/error.h>
+#include <variant>
+#include <vector>
+
+namespace sward {
+
+/// Lattice of bintree vertices. A root square is always 2^18 units wide, so that every vertex of every level is a pair
+/// of integers; root square (c, r) spans [c, c+1] x [r, r+1] times k_root_side. x runs east, y runs SOUTH (image rows).
+using LatticePoint = glm::ivec2;
+inline constexpr int k_root_bits = 18;
+inline constexpr int k_root_side = 1 << k_root_bits;
+/// Deepest level of the 64-bit triangle id.
+inline constexpr int k_max_level = 35;
+
+/// Relief below the data: deterministic gradient noise in octaves whose lattices contain the data's own samples, where
+/// it is zero. Part of the height function: mesh, bounds, queries and plants agree on it.
+struct ReliefOptions {
+  bool enabled = true;
+  /// Height of an octave against its wavelength, on steep ground. Range 0..0.5.
+  float roughness = 0.035f;
+  /// Share of that left on flat ground. Range 0..1.
+  float flat_share = 0.25f;
+  /// Slope (rise over run) at which the full roughness is reached. > 0.
+  float full_slope = 0.7f;
+  /// The mesh ends where a triangle's legs are at most this long, metres. Range 0.1..100.
+  float finest_edge_m = 0.5f;
+  uint32_t seed = 1;
+};
+
+struct HeightFieldDesc {
+  int columns = 0;               ///< Samples west to east, >= 2.
+  int rows = 0;                  ///< Samples north to south, >= 2.
+  glm::dvec2 spacing{1.0, 1.0};  ///< Metres between samples, > 0: x between columns, y between rows.
+  glm::dvec3 origin{0.0};        ///< World position of the field's middle; z is added to every height.
+  double scale = 1.0;            ///< Metres a raw unit.
+  double offset = 0.0;           ///< Metres added after scaling.
+  ReliefOptions relief;
+};
+
+/// Immutable heights over root squares side by side. Sample (column, row), row 0 the northern edge, stands at
+/// x = origin.x + (column - (columns-1)/2) dx, y = origin.y + ((rows-1)/2 - row) dy.
+///
+/// The bintree covers whole root squares of 2^n + 1 samples: among the sizes that need at most 256 squares (the root
+/// mesh costs two triangles of every frame's budget a square), the one that pads least, the larger at a tie. What lies
+/// beyond the data is padding: it repeats the edge and is never drawn, seeded or counted in bounds.
+///
+/// All calls are const and safe from several threads.
+class HeightField {
+ public:
+  using Samples = std::variant<std::vector<uint16_t>, std::vector<float>>;
+
+  /// Takes rows of `columns` samples, north first. `holes` is empty or has one entry a sample, not 0 for no data:
+  /// those samples are filled smoothly from their surroundings and marked. Float samples that are NaN or infinite are
+  /// holes too. Fails on sizes, spacings or counts out of range and when every sample is a hole.
+  static Expected<HeightField> create(const HeightFieldDesc& desc, Samples samples, std::span<const uint8_t> holes = {});
+
+  const HeightFieldDesc& desc() const { return desc_; }
+  /// log2 of the cells along a root square's side, >= 1.
+  int root_bits() const { return root_bits_; }
+  /// Root squares, columns by rows.
+  glm::ivec2 root_squares() const { return root_squares_; }
+  /// Level whose triangles have legs one sample spacing long: 2 root_bits().
+  int data_level() const { return 2 * root_bits_; }
+  /// Deepest level of the mesh: data_level(), deeper with relief.
+  int max_level() const { return max_level_; }
+  /// Lattice units between samples.
+  int sample_step() const { return k_root_side >> root_bits_; }
+  /// Number of samples that were holes.
+  int64_t hole_count() const { return hole_count_; }
+  /// Lowest and highest sample, metres, world (origin.z included); relief reaches up to relief_amplitude() beyond.
+  glm::dvec2 height_range() const { return height_range_; }
+  double relief_amplitude() const { return relief_amplitude_; }
+  /// Western/southern and eastern/northern corner of the data, world.
+  glm::dvec2 min_corner() const;
+  glm::dvec2 max_corner() const;
+
+  /// Sample in metres, world; indices are clamped to the data (so padding repeats the edge).
+  double sample(int column, int row) const;
+  bool is_hole(int column, int row) const;
+
+  /// World x, y of a lattice point: exact for what ids need (the same bits for the same point, always).
+  glm::dvec2 world_xy(LatticePoint p) const;
+  /// True where the lattice point lies on the data, borders included (not in the padding).
+  bool inside(LatticePoint p) const;
+  /// Surface height at a lattice point, relief included, metres, world.
+  double height(LatticePoint p) const;
+  /// Finest surface (the mesh of max_level everywhere) at world x, y. NaN outside of the data.
+  double height(glm::dvec2 xy) const;
+  /// Unit normal of the finest surface at world x, y; up outside of the data.
+  glm::dvec3 normal(glm::dvec2 xy) const;
+  /// Slope of the samples (dz/dx, dz/dy; no relief), bilinear between central differences: static data for densities
+  /// and for shading far away. Clamped to the edge outside.
+  glm::dvec2 data_gradient(glm::dvec2 xy) const;
+  /// Gradient of the relief alone at a lattice point (dz/dx, dz/dy), for shading.
+  glm::dvec2 relief_gradient(LatticePoint p) const;
+  /// Upper bound of |z(m) - (z(l)+z(r))/2| that the relief adds at splits of triangles of `level` and below, summed
+  /// over all levels from `level` to max_level(); 0 at max_level(). Analytic; see height_field.cpp.
+  double relief_bound(int level) const;
+
+ private:
+  HeightFieldDesc desc_;
+  Samples samples_;
+  std::vector<uint64_t> holes_;  // one bit a sample; empty when there is none
+  int root_bits_ = 1;
+  glm::ivec2 root_squares_{1};
+  int max_level_ = 2;
+  int64_t hole_count_ = 0;
+  glm::dvec2 height_range_{0};
+  double relief_amplitude_ = 0;
+  std::vector<double> relief_bound_;  // by level
+};
+
+}  // namespace sward

@@ -1,0 +1,92 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+#include <sward/terrain/bounds.h>
+#include <sward/terrain/fixed_triangles.h>
+#include <sward/terrain/view.h>
+
+namespace sward {
+
+struct RoamOptions {
+  /// Most triangles drawn in a frame, those of the root mesh included.
+  uint32_t max_triangles = 20000;
+  /// Stop refining when the bound is at most this many pixels. 0: spend the whole budget.
+  float target_px = 0;
+  /// An exchange (one merge for one split) is made only if it lowers the maximum by more than this share.
+  float hysteresis = 0.01f;
+  /// Most seconds an update may take; the mesh is valid after that and the next frame goes on. 0: no cap.
+  double time_cap_s = 0;
+};
+
+/// Counts of one update.
+struct RoamStats {
+  uint32_t visible = 0;        ///< Triangles drawn; never above the budget.
+  uint32_t leaves = 0;         ///< All leaves, visible or not.
+  uint32_t splits = 0;         ///< Diamonds split in this update.
+  uint32_t merges = 0;
+  bool capped = false;         ///< The time cap ended the update early.
+};
+
+/// A vertex as the GPU gets it, relative to RoamMesh::origin(). Slots are stable while the vertex lives.
+struct RoamVertex {
+  glm::vec3 position{0};         ///< Metres, relative to origin().
+  glm::vec2 relief_gradient{0};  ///< dz/dx, dz/dy of the relief alone, to be added to the slope map's.
+};
+
+/// An incrementally optimal triangle bintree (Duchaineau et al. 1997): a split queue of leaves and a merge queue of
+/// diamonds ordered by projected wedgie thickness in pixels. No cracks, ever; deterministic. One thread at a time.
+class RoamMesh {
+ public:
+  /// `bounds` and its field must outlive the mesh. Fails when the budget is below the root mesh, naming both numbers.
+  static Expected<RoamMesh> create(const Bounds& bounds, const RoamOptions& options);
+  RoamMesh(RoamMesh&&) noexcept;
+  RoamMesh& operator=(RoamMesh&&) noexcept;
+  ~RoamMesh();
+
+  /// Adapts the mesh to a view. Fails, changing nothing, when the view is not valid.
+  Expected<RoamStats> update(const View& view);
+
+  /// Changes the budget or the target; takes effect at the next update. Fails as create does.
+  Expected<void> set_options(const RoamOptions& options);
+  const RoamOptions& options() const;
+
+  /// Proven bound of the projected error over the visible leaves of the last update, pixels; k_artificial_max when a
+  /// wedgie crosses the near plane.
+  float bound_px() const;
+  static constexpr float k_artificial_max = 1.0e9f;
+
+  // What a renderer draws; spans are valid until the next call that is not const.
+
+  /// World position that vertices are relative to. Changes (all vertices then count as changed) when the eye has gone
+  /// more than a kilometre from it.
+  glm::dvec3 origin() const;
+  /// All vertex slots, dead ones included.
+  std::span<const RoamVertex> vertices() const;
+  /// Slots written since the last update began, unordered, without repeats.
+  std::span<const uint32_t> changed_vertices() const;
+  /// True when origin() changed: every slot was rewritten.
+  bool all_vertices_changed() const;
+  /// Visible leaves: three vertex slots each, counter-clockwise from above.
+  std::span<const uint32_t> visible_indices() const;
+  /// All leaves that are not padding, in the same form; built on demand.
+  std::vector<uint32_t> all_indices() const;
+  /// World position of a vertex slot, double precision.
+  glm::dvec3 vertex_world(uint32_t slot) const;
+
+  /// Culled triangles of one level, on the surface of the last update, for that view. Clears `out` first.
+  void fixed_level_triangles(const FixedLevelOptions& options, FixedTriangles& out) const;
+
+  /// Checks the whole structure: neighbours symmetric, no T-junction, corners and vertices consistent, queue
+  /// membership, flags, counts. O(leaves). Fails naming the first fault.
+  Expected<void> validate() const;
+
+ private:
+  struct Impl;
+  explicit RoamMesh(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sward

@@ -1,0 +1,40 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sward/gl/frame.h>
+#include <sward/gl/ground.h>
+#include <sward/gl/shader_library.h>
+#include <sward/terrain/roam_mesh.h>
+
+namespace sward {
+
+/// Draws a RoamMesh: base map, sun, ambient light, haze. GL thread.
+class TerrainRenderer {
+ public:
+  static Expected<TerrainRenderer> create(const gl::ShaderLibrary& shaders, const gl::Bindings& bindings = {});
+
+  /// Copies what changed in the mesh since its last update into the GPU's buffers. Call once after each update (a
+  /// skipped update is noticed: everything is uploaded). Binds nothing. Returns bytes written.
+  size_t upload(const RoamMesh& mesh);
+
+  /// Draws the visible leaves into the bound framebuffer with one indexed draw.
+  /// Binds: program, vertex array, uniform buffer bindings.frame, textures bindings.base_map, bindings.slope_map.
+  /// Sets: nothing else; the host chooses depth test (GL_LESS, GL_LEQUAL or reversed), culling, blending, masks.
+  /// Leaves: program 0, vertex array 0, those texture units and that uniform buffer binding 0.
+  void draw(const View& view, const gl::Frame& frame, const gl::GroundTextures& ground);
+
+  /// Triangles of the last upload.
+  uint32_t triangles() const { return index_count_ / 3; }
+
+ private:
+  gl::Bindings bindings_;
+  gl::Program program_;
+  gl::VertexArray vertex_array_;
+  gl::Buffer vertices_, indices_;
+  size_t vertex_capacity_ = 0, index_capacity_ = 0;
+  uint32_t index_count_ = 0;
+  glm::dvec3 origin_{0};
+};
+
+}  // namespace sward

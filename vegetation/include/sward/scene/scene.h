@@ -1,0 +1,61 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <sward/terrain/color_map.h>
+#include <sward/terrain/height_field.h>
+#include <sward/vegetation/species.h>
+#include <vector>
+
+namespace sward {
+
+/// A scene as a TOML file names it. Paths are kept as written; resolve() makes them relative to the file's folder.
+struct Scene {
+  std::string name;
+  std::string directory;        ///< Folder of the file, for relative paths; empty for built-in scenes.
+
+  // [terrain]
+  std::string generator;        ///< "meadow", or empty when `height_path` is set.
+  uint32_t generator_seed = 1;
+  int generator_samples = 1025; ///< Along each side.
+  double generator_size_m = 4096;
+  std::string height_path;
+  glm::dvec2 spacing{1.0, 1.0};
+  double height_scale = 1.0, height_offset = 0.0;
+  bool has_no_data = false;
+  double no_data = 0;
+  glm::dvec3 origin{0.0};
+  ReliefOptions relief;
+  uint32_t max_triangles = 20000;
+  float target_px = 0;
+
+  // [base_map]
+  std::string texture_path;     ///< Empty: the generator's, or none.
+
+  // [sun], [haze], [camera]
+  float sun_azimuth = 2.4f, sun_elevation = 0.6f;  ///< Radians.
+  float haze_distance_m = 12000;
+  glm::dvec3 camera{0.0, 0.0, 1.7};
+  bool camera_above_ground = true;                 ///< camera.z counts from the ground.
+  double camera_yaw = 0, camera_pitch = 0, fov_y = 0.8726646;  ///< Radians.
+
+  // [[layer]] with [[layer.species]]
+  std::vector<Layer> layers;
+
+  std::string resolve(const std::string& path) const;
+};
+
+/// Reads and checks a scene. Errors read "FILE:LINE: what is wrong, what was expected"; unknown keys, wrong types,
+/// values out of range and contradictions (a generator and a height file, say) are errors.
+Expected<Scene> load_scene(const std::string& path);
+/// The same from text; `name` stands for the file in messages.
+Expected<Scene> parse_scene(std::string_view text, const std::string& name);
+/// The files of demo/scenes, embedded at build time.
+std::span<const EmbeddedText> embedded_scenes();
+/// Built-in scenes, embedded from demo/scenes: "meadow". Fails naming what there is.
+Expected<Scene> builtin_scene(std::string_view name);
+
+}  // namespace sward

@@ -1,0 +1,55 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <sward/terrain/color_map.h>
+#include <sward/terrain/fixed_triangles.h>
+#include <sward/terrain/view.h>
+#include <sward/vegetation/species.h>
+
+namespace sward {
+
+/// A triangle as every stage after seeding sees it: five RGBA32 texels of a buffer texture. Everything that decides
+/// what stands where is static (id, edges, texel position, limit); what moves with the eye is the apex and, for the
+/// laws of the screen, the limit.
+struct TriangleRecord {
+  glm::vec3 apex{0};          ///< Relative to the eye, metres.
+  uint32_t id_low = 0;
+  glm::vec3 to_left{0};
+  uint32_t id_high = 0;
+  glm::vec3 to_right{0};
+  uint32_t surface = 0;       ///< Root node in the surface buffer, 0: flat.
+  glm::ivec2 texel{0};        ///< Base-map texel of the apex, integer part (floor) of (u width, v height) ...
+  glm::vec2 texel_fraction{0};///< ... and the rest; offsets in metres are scaled by SeedingUniforms::texels_per_m.
+  float limit = 0;            ///< distance law: area * rho0, the seeds at full density; else: the triangle's seed count n.
+  float area = 0;             ///< Static area, square metres.
+  float surface_z = 0;        ///< Add to SurfaceNode::z to get z relative to the eye.
+  uint32_t submitted = 0;     ///< Seeds submitted for this triangle.
+};
+static_assert(sizeof(TriangleRecord) == 80);
+
+/// One instanced draw: `triangles` records from `first`, `clusters` instances each.
+struct DensityBin {
+  uint32_t first = 0, triangles = 0, clusters = 0;
+};
+
+/// Result of seeding a layer for one view: plain arrays, uploaded as they are.
+struct Seeding {
+  std::vector<TriangleRecord> records;             ///< Sorted by bin, largest count first.
+  std::array<DensityBin, k_density_bins> bins{};   ///< In drawing order: largest count first; empty bins have 0 triangles.
+  uint32_t clusters = 0;                           ///< Clusters that the bins submit.
+  float n_min = 0, n_max = 0;                      ///< Smallest and largest count of this frame.
+  double surface_z_origin = 0;                     ///< FixedTriangles::surface_z, for the CPU twin.
+};
+
+/// Seeds that a triangle is given by the layer's law (CONTRACT: How many). 0 beyond the horizon.
+float seed_limit(const Layer& layer, const View& view, const FixedTriangle& triangle);
+
+/// Upper edges of the 32 geometric bins between n_min (>= 1) and n_max: e_i = n_min (n_max/n_min)^((i+1)/32).
+std::array<float, k_density_bins> bin_edges(float n_min, float n_max);
+
+/// Counts, bins and lays out. Clears `out` first; allocates only when a frame needs more than any before.
+void seed(const Layer& layer, const View& view, const ColorMap& map, const FixedTriangles& triangles, Seeding& out);
+
+}  // namespace sward

@@ -1,0 +1,89 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <sward/terrain/error.h>
+#include <vector>
+
+namespace sward {
+
+/// What grows (or not) where the ground has a species' colour.
+enum class PlantKind : uint32_t {
+  none,   ///< Bare ground: soil, rock, snow. Competes for clusters, grows nothing.
+  blade,  ///< A blade of grass.
+};
+
+struct FloatRange {
+  float min = 0, max = 0;
+};
+
+/// A reference colour, placement rules and growth parameters (Papavasiliou 2015, section 3.3).
+struct Species {
+  std::string name;
+  PlantKind kind = PlantKind::blade;
+  /// Reference colour: hue in turns [0, 1), saturation and value [0, 1], of the sRGB-encoded base map.
+  glm::vec3 reference_hsv{0.25f, 0.5f, 0.4f};
+  /// Weights of the differences in hue, saturation, value (equation 16). >= 0, not all 0.
+  glm::vec3 weights{1.0f, 0.5f, 0.25f};
+  /// p of equation 16. > 0.
+  float exponent = 2.0f;
+  /// Largest accepted weighted colour distance; beyond it the species does not compete. > 0, may be infinite.
+  float max_distance = 1.0e9f;
+  /// For kind `none`: where this species scores best nothing grows at all, not even by chance (water, runways).
+  bool forbids = false;
+
+  FloatRange height_m{0.25f, 0.45f};
+  FloatRange width_m{0.004f, 0.008f};   ///< At the base.
+  FloatRange stiffness{0.45f, 0.85f};   ///< 0: hangs, 1: stands straight (see blade_shape.h).
+  float lean = 0.15f;                   ///< Largest random lean of the root, radians.
+  float phototropism = 0.0f;            ///< 0: any azimuth; 1: all plants bend towards the sun.
+  int max_segments = 7;                 ///< n_max of equation 4, 1..64.
+  glm::vec3 tint{1.0f};                 ///< Multiplies the ground's linear colour: the fresh plant's tip.
+  glm::vec3 age_tint{1.25f, 1.05f, 0.55f};  ///< The same for the oldest plants; each plant mixes by its own age.
+  float age_share = 0.35f;              ///< Mean share of the age tint, 0..1.
+  float root_shade = 0.35f;             ///< Reeves' occlusion: brightness at the root against 1 at the tip, 0..1.
+  float translucency = 0.6f;            ///< k_t of equation 13 against the diffuse coefficient, >= 0.
+  float attenuation = 0.4f;             ///< alpha of equation 13, >= 0.
+  float specular = 0.12f;               ///< k_s of equation 14, >= 0.
+  float shininess = 24.0f;              ///< n of equation 14, >= 1.
+};
+
+enum class DensityLaw : uint32_t {
+  distance,     ///< Full density to d0, then rho0 (d0 / d)^gamma.
+  screen_area,  ///< Equation 1 of the paper.
+  world_area,   ///< Equation 2, sign mended.
+};
+
+/// Species that share a seeding level and a horizon.
+struct Layer {
+  std::string name = "ground_cover";
+  std::vector<Species> species;
+  float triangle_area_m2 = 1.6f;   ///< Names the seeding level. > 0.
+  float horizon_m = 100.0f;        ///< > 0, at zoom 1.
+  int cluster_size = 8;            ///< C, 1..32.
+  DensityLaw law = DensityLaw::distance;
+  float density = 500.0f;          ///< rho0: plants a square metre (distance); plants a unit of screen area (screen_area,
+                                   ///< world_area). > 0.
+  float full_distance_m = 5.0f;    ///< d0 of the distance law. > 0.
+  float falloff = 1.0f;            ///< gamma of the distance law; roll-off exponent on the area of screen_area. > 0.
+  int ceiling = 4096;              ///< n_max of equations 1 and 2: most plants a triangle. >= 1.
+  bool plain = false;              ///< The paper's behaviour: no growing-in, no widening, no sinking.
+  float full_segments_m = 6.0f;    ///< d0 of equation 4: full segments up to here. > 0.
+  bool shadows = true;             ///< Planar shadows.
+  float shadow_distance_m = 60.0f; ///< No shadows of plants beyond. >= 0.
+};
+
+inline constexpr int k_max_species = 64;  ///< In one layer.
+inline constexpr int k_max_cluster_size = 32;
+inline constexpr int k_density_bins = 32;
+
+/// Fails naming layer, species, field and range.
+Expected<void> validate(const Layer& layer);
+
+/// Highest a plant of the layer can reach above the ground, metres.
+float canopy_height(const Layer& layer);
+
+}  // namespace sward

@@ -1,0 +1,67 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// sward vegetation: grows plants on triangles. It does not know terrain engines, files, windows or contexts; it draws
+/// into whatever framebuffer is bound.
+#include <memory>
+#include <sward/gl/frame.h>
+#include <sward/gl/ground.h>
+#include <sward/gl/shader_library.h>
+#include <sward/vegetation/plants.h>
+#include <sward/vegetation/seeding.h>
+
+namespace sward {
+
+struct VegetationStats {
+  uint32_t clusters_submitted = 0;
+  uint32_t clusters_fertile = 0;   ///< Fed back. From the GPU's queries of an earlier frame unless waited for.
+  uint64_t primitives = 0;         ///< Triangles rasterised, shadows included (same remark).
+  bool overflow = false;           ///< A feedback buffer was too small: never, tests assert it.
+};
+
+/// Draws one layer. Owns its programs, feedback buffers and uniform buffers. GL thread.
+class VegetationRenderer {
+ public:
+  /// Compiles classification and one growth program a plant kind in use. Fails on a layer that does not validate, on a
+  /// shader's error (with the driver's log) and on a GL below 4.5.
+  static Expected<VegetationRenderer> create(const Layer& layer, const gl::ShaderLibrary& shaders,
+                                             const gl::Bindings& bindings = {});
+  VegetationRenderer(VegetationRenderer&&) noexcept;
+  VegetationRenderer& operator=(VegetationRenderer&&) noexcept;
+  ~VegetationRenderer();
+
+  const Layer& layer() const;
+
+  /// One upload of a frame's seeding and surface; grows buffers when a frame needs more than any before. Binds nothing.
+  void upload(const Seeding& seeding, const FixedTriangles& triangles);
+
+  /// Classifies the uploaded clusters into one feedback stream a species, by passes of four. Call after upload, before
+  /// draw, once a frame. Binds: program, vertex array, transform feedback, draw framebuffer (its own, 1 x 1), uniform
+  /// buffers frame and species, texture units base_map_raw, triangles, surface; enables GL_RASTERIZER_DISCARD.
+  /// Leaves: program 0, vertex array 0, feedback 0, those units and bindings 0, discard disabled, and
+  /// `restore_framebuffer` bound for drawing.
+  void classify(const gl::Frame& frame, const gl::GroundTextures& ground, GLuint restore_framebuffer);
+
+  /// Grows and draws every species, shadows included. Binds: programs, vertex array, uniform buffers frame and species,
+  /// texture units base_map, base_map_raw, triangles, surface, blade_shape; sets GL_PATCH_VERTICES 1; enables
+  /// GL_SAMPLE_ALPHA_TO_COVERAGE on multisampled targets (frame.samples() > 1).
+  /// Leaves: program 0, vertex array 0, those units and bindings 0, alpha-to-coverage disabled, patch vertices 1. The
+  /// host chooses depth test, depth mask, culling (must be off), blending (must be off).
+  void draw(const gl::Frame& frame, const gl::GroundTextures& ground);
+
+  /// Results of the queries of the last classify and draw; `wait` blocks until they are there.
+  VegetationStats stats(bool wait);
+
+  /// The plants of the last classify as the GPU grows them, read back: for tests and `sward plants --gpu`. Slow. Needs
+  /// the seeding that was uploaded, to name triangles; same binding contract as classify.
+  Expected<std::vector<Plant>> read_back(const gl::Frame& frame, const gl::GroundTextures& ground, const View& view,
+                                         const Seeding& seeding, GLuint restore_framebuffer);
+
+ private:
+  struct Impl;
+  explicit VegetationRenderer(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sward

@@ -1,0 +1,4 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+#include <sward/vegetation/species.h>
