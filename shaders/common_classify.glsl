@@ -125,3 +125,20 @@ SWARD_FN MapSample locate_texel(LayerParams layer, ivec2 apex_texel, vec2 apex_f
   s.inside = whole.x >= 0 && whole.y >= 0 && whole.x < int(layer.map.z) && whole.y < int(layer.map.w);
   return s;
 }
+
+// The base map repeats its outermost texels.
+SWARD_FN ivec2 clamp_texel(LayerParams layer, ivec2 texel) {
+  return ivec2(clamp(texel.x, 0, int(layer.map.z) - 1), clamp(texel.y, 0, int(layer.map.w) - 1));
+}
+
+// Whether the ground at a sample can carry plants at all: on the map, and its blended alpha (red, green, blue, alpha as
+// blend_texels gives them) does not forbid it.
+SWARD_FN bool ground_is_open(MapSample s, vec4 color) { return s.inside && color.w >= 0.5f; }
+
+// Whether a plant may stand where `t` are the best species and `c` is the choice among them: something grows there, and
+// the best species of all does not forbid it. `best` and `chosen` are their SpeciesParams::kind, ignored where there is
+// no species. Asked at a cluster's centre, and again, with the cluster's z, at each of its seeds.
+SWARD_FN bool plant_allowed(TopTwo t, Choice c, vec4 best, vec4 chosen) {
+  if (t.first < 0 || c.species < 0) return false;
+  return chosen.x > 0.5f && best.y < 0.5f;
+}

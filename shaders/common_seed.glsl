@@ -53,6 +53,21 @@ SWARD_FN vec2 cluster_centre(uvec2 id, uint cluster, Cluster c) {
 
 SWARD_FN vec2 seed_point(uvec2 id, uint rank, Cluster c) { return point_in_stratum(c, random_pair(rank, id)); }
 
+// Metres east and north of the apex.
+SWARD_FN vec2 offset_from_apex(vec3 to_left, vec3 to_right, vec2 point) {
+  SWARD_PRECISE vec2 offset =
+      vec2(to_left.x * point.x + to_right.x * point.y, to_left.y * point.x + to_right.y * point.y);
+  return offset;
+}
+
+// Distance from the eye to the point at `offset` from an apex relative to the eye, on ground at height `z` above the eye.
+SWARD_FN float seed_distance(vec3 apex, vec2 offset, float z) {
+  SWARD_PRECISE float x = apex.x + offset.x;
+  SWARD_PRECISE float y = apex.y + offset.y;
+  SWARD_PRECISE float squared = x * x + y * y + z * z;
+  return sqrt(squared);
+}
+
 // One step down the drawn surface below a triangle: corner heights and the point's weights. Child 0 is
 // (m, apex, left), child 1 (m, right, apex), m the middle of left-right.
 struct SurfaceWalk {

@@ -1,0 +1,27 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sward/terrain/color_map.h>
+#include <sward/terrain/view.h>
+#include <sward/vegetation/species.h>
+#include <vector>
+
+#include "vegetation/shared_glsl.h"
+
+namespace sward {
+
+/// What the lookup needs to know of a base map: its texels may be on the CPU (ColorMap) or in a texture.
+struct MapGeometry {
+  glm::dvec2 size{1};    ///< Metres east and north, > 0.
+  glm::ivec2 texels{1};  ///< Width and height, > 0.
+};
+inline MapGeometry geometry_of(const ColorMap& map) { return {map.size, {map.width, map.height}}; }
+
+/// What the uniform block of a layer holds for one view. `sun_azimuth`: radians, 0 east, counter-clockwise.
+shared::LayerParams make_layer_params(const Layer& layer, const View& view, const MapGeometry& map, float sun_azimuth);
+
+/// One entry a species, in the layer's order.
+std::vector<shared::SpeciesParams> make_species_params(const Layer& layer);
+
+}  // namespace sward
