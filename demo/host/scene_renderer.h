@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
 #include <sward/scene/scene.h>
 #include <sward/terrain/roam_mesh.h>
 #include <sward/terrain_gl/terrain_renderer.h>
 #include <sward/vegetation/vegetation_renderer.h>
+#include <memory>
+#include <optional>
 
 #include "host/sky.h"
 
@@ -18,8 +19,13 @@ struct SceneTerrain {
   Bounds bounds;
   ColorMap colors;
 };
-/// Generates or loads what the scene names. `detail` false switches the relief below the data off.
+/// Generates or loads what the scene names. `detail` false switches the relief below the data off. A height map without
+/// a texture is painted by slope. Fails too when the scene's camera has no ground below it to count its height from.
 Expected<std::unique_ptr<SceneTerrain>> load_terrain(const Scene& scene, bool detail, const Progress& progress = {});
+
+/// Near plane of the demo's views, metres, and a far plane that holds the whole field from anywhere near it.
+inline constexpr double k_near_plane_m = 0.1;
+double far_plane_m(const HeightField& field);
 
 /// Where the scene's camera stands (z above the ground resolved), looking along its yaw and pitch.
 View scene_view(const Scene& scene, const SceneTerrain& terrain, glm::ivec2 viewport);
@@ -28,9 +34,16 @@ struct SceneFrameStats {
   RoamStats roam;
   float bound_px = 0;
   uint32_t fixed_triangles = 0;
-  VegetationStats vegetation;
-  double cpu_roam_ms = 0, cpu_seeding_ms = 0;
+  VegetationStats vegetation;  ///< Sums over the layers.
+  double cpu_roam_ms = 0;      ///< Update and upload of what changed.
+  double cpu_seeding_ms = 0;   ///< Fixed-level triangles, seeding, upload.
+  /// Of this frame when waited for, else of the newest frame whose times have arrived; empty where the driver cannot
+  /// measure (software renderers) or nothing has arrived yet.
+  std::optional<double> gpu_terrain_ms, gpu_classify_ms, gpu_grow_ms;
 };
+
+/// False on software renderers, whose timer queries mean nothing. GL thread.
+bool gpu_can_time();
 
 /// Everything that draws a scene, one frame after the other: the whole pipeline in one place. GL thread.
 class SceneRenderer {
@@ -48,9 +61,17 @@ class SceneRenderer {
                                  int samples, bool wait_for_stats);
   /// Without vegetation when false (the paper's figure 7 needs both).
   void set_vegetation(bool enabled);
+  /// Without the sky when false, for hosts that have their own.
+  void set_sky(bool enabled);
+  /// Replaces a layer's species and rules. On an error (the layer does not validate) nothing changes.
+  Expected<void> set_layer(size_t index, const Layer& layer);
+  /// Builds every program from `shaders`, then swaps them all in. On an error the old ones stay.
+  Expected<void> reload(const gl::ShaderLibrary& shaders);
 
   RoamMesh& mesh();
-  /// Plants of the last frame: from the CPU twin, or read back from the GPU.
+  const std::vector<Layer>& layers() const;
+  /// Plants of the last frame: from the CPU twin, or read back from the GPU. Plant::species counts on from layer to
+  /// layer.
   std::vector<Plant> plants_cpu(const View& view) const;
   Expected<std::vector<Plant>> plants_gpu(const View& view, GLuint framebuffer);
 

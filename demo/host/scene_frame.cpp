@@ -1,0 +1,59 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+#include "host/scene_frame.h"
+
+namespace sward::host {
+
+Expected<SceneFrame> SceneFrame::create(std::span<const Layer> layers, const Bounds& bounds,
+                                        const RoamOptions& options) {
+  auto mesh = RoamMesh::create(bounds, options);
+  if (!mesh) return tl::unexpected(mesh.error());
+  SceneFrame frame(std::move(*mesh));
+  frame.field_ = &bounds.field();
+  frame.layers_.resize(layers.size());
+  for (size_t i = 0; i < layers.size(); ++i) {
+    if (auto valid = validate(layers[i]); !valid) return tl::unexpected(valid.error());
+    frame.set_layer(i, layers[i]);
+  }
+  return frame;
+}
+
+void SceneFrame::set_layer(size_t index, const Layer& layer) {
+  layers_[index].layer = layer;
+  layers_[index].level = level_for_area(*field_, layer.triangle_area_m2);
+  uint32_t species = 0;
+  for (LayerFrame& each : layers_) {
+    each.first_species = species;
+    species += uint32_t(each.layer.species.size());
+  }
+}
+
+uint32_t SceneFrame::cut_triangles(const View& view) {
+  uint32_t count = 0;
+  for (LayerFrame& each : layers_) {
+    FixedLevelOptions options;
+    options.level = each.level;
+    options.horizon_m = each.layer.horizon_m * float(view.zoom());
+    options.canopy_m = canopy_height(each.layer);
+    mesh_.fixed_level_triangles(options, each.triangles);
+    count += uint32_t(each.triangles.triangles.size());
+  }
+  return count;
+}
+
+void SceneFrame::seed_triangles(const View& view, const ColorMap& colors) {
+  for (LayerFrame& each : layers_) seed(each.layer, view, colors, each.triangles, each.seeding);
+}
+
+std::vector<Plant> SceneFrame::plants(const View& view, const ColorMap& colors) const {
+  std::vector<Plant> all;
+  for (const LayerFrame& each : layers_) {
+    std::vector<Plant> grown = grow_plants(each.layer, view, colors, each.triangles, each.seeding);
+    for (Plant& plant : grown) plant.species += each.first_species;
+    all.insert(all.end(), grown.begin(), grown.end());
+  }
+  return all;
+}
+
+}  // namespace sward::host

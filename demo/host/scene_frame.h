@@ -1,0 +1,49 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sward/scene/scene.h>
+#include <sward/terrain/roam_mesh.h>
+#include <sward/vegetation/plants.h>
+#include <sward/vegetation/seeding.h>
+#include <span>
+#include <vector>
+
+namespace sward::host {
+
+/// One layer's share of a frame.
+struct LayerFrame {
+  Layer layer;
+  int level = 0;               ///< Seeding level.
+  uint32_t first_species = 0;  ///< Species of the layers before it: plants of all layers are numbered in one row.
+  FixedTriangles triangles;
+  Seeding seeding;
+};
+
+/// The half of a frame that needs no GL: mesh, fixed-level triangles, seeding. One thread at a time.
+class SceneFrame {
+ public:
+  /// `bounds` and its field must outlive the frame.
+  static Expected<SceneFrame> create(std::span<const Layer> layers, const Bounds& bounds, const RoamOptions& options);
+
+  RoamMesh& mesh() { return mesh_; }
+  const RoamMesh& mesh() const { return mesh_; }
+  std::span<const LayerFrame> layers() const { return layers_; }
+  /// Replaces a layer's species and rules; the next frame follows them.
+  void set_layer(size_t index, const Layer& layer);
+
+  /// Fixed-level triangles of every layer on the mesh of its last update. Returns how many.
+  uint32_t cut_triangles(const View& view);
+  /// Seeds the cut triangles.
+  void seed_triangles(const View& view, const ColorMap& colors);
+  /// The CPU twin's plants of all layers; Plant::species counts on from layer to layer.
+  std::vector<Plant> plants(const View& view, const ColorMap& colors) const;
+
+ private:
+  explicit SceneFrame(RoamMesh mesh) : mesh_(std::move(mesh)) {}
+  RoamMesh mesh_;
+  std::vector<LayerFrame> layers_;
+  const HeightField* field_ = nullptr;
+};
+
+}  // namespace sward::host

@@ -1,0 +1,193 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+#include "host/scene_renderer.h"
+
+#include <chrono>
+#include <string_view>
+
+#include "host/gpu_timer.h"
+#include "host/scene_frame.h"
+
+namespace sward::host {
+
+namespace {
+
+double ms_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// What is compiled from shaders, so that a reload can build it aside.
+struct Programs {
+  TerrainRenderer terrain;
+  Sky sky;
+  std::vector<VegetationRenderer> vegetation;
+};
+
+Expected<Programs> build_programs(const std::vector<Layer>& layers, const gl::ShaderLibrary& shaders,
+                                  const gl::Bindings& bindings) {
+  auto terrain = TerrainRenderer::create(shaders, bindings);
+  if (!terrain) return tl::unexpected(terrain.error());
+  auto sky = Sky::create(shaders, bindings);
+  if (!sky) return tl::unexpected(sky.error());
+  Programs programs{std::move(*terrain), std::move(*sky), {}};
+  for (const Layer& layer : layers) {
+    auto vegetation = VegetationRenderer::create(layer, shaders, bindings);
+    if (!vegetation) return tl::unexpected(vegetation.error());
+    programs.vegetation.push_back(std::move(*vegetation));
+  }
+  return programs;
+}
+
+}  // namespace
+
+bool gpu_can_time() {
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string_view renderer = name != nullptr ? name : "";
+  return renderer.find("llvmpipe") == std::string_view::npos && renderer.find("softpipe") == std::string_view::npos;
+}
+
+struct SceneRenderer::Impl {
+  const SceneTerrain& terrain;
+  gl::ShaderLibrary shaders;
+  gl::Bindings bindings;
+  std::vector<Layer> layers;
+  gl::Frame frame;
+  gl::GroundTextures ground;
+  SceneFrame cpu;
+  Programs programs;
+  GpuTimer terrain_timer, classify_timer, grow_timer;
+  bool vegetation_on = true, sky_on = true;
+
+  void draw_vegetation(const View& view, GLuint framebuffer, SceneFrameStats& stats);
+  void gather(bool wait, SceneFrameStats& stats);
+};
+
+void SceneRenderer::Impl::draw_vegetation(const View& view, GLuint framebuffer, SceneFrameStats& stats) {
+  const auto begin = std::chrono::steady_clock::now();
+  stats.fixed_triangles = cpu.cut_triangles(view);
+  cpu.seed_triangles(view, terrain.colors);
+  for (size_t i = 0; i < programs.vegetation.size(); ++i)
+    programs.vegetation[i].upload(cpu.layers()[i].seeding, cpu.layers()[i].triangles);
+  stats.cpu_seeding_ms = ms_since(begin);
+
+  classify_timer.begin();
+  for (VegetationRenderer& layer : programs.vegetation) layer.classify(frame, ground, framebuffer);
+  classify_timer.end();
+  grow_timer.begin();
+  for (VegetationRenderer& layer : programs.vegetation) layer.draw(frame, ground);
+  grow_timer.end();
+}
+
+void SceneRenderer::Impl::gather(bool wait, SceneFrameStats& stats) {
+  stats.gpu_terrain_ms = terrain_timer.milliseconds(wait);
+  if (!vegetation_on) return;
+  stats.gpu_classify_ms = classify_timer.milliseconds(wait);
+  stats.gpu_grow_ms = grow_timer.milliseconds(wait);
+  for (VegetationRenderer& layer : programs.vegetation) {
+    const VegetationStats one = layer.stats(wait);
+    stats.vegetation.clusters_submitted += one.clusters_submitted;
+    stats.vegetation.clusters_fertile += one.clusters_fertile;
+    stats.vegetation.primitives += one.primitives;
+    stats.vegetation.overflow = stats.vegetation.overflow || one.overflow;
+  }
+}
+
+SceneRenderer::SceneRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;
+SceneRenderer& SceneRenderer::operator=(SceneRenderer&&) noexcept = default;
+SceneRenderer::~SceneRenderer() = default;
+
+Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTerrain& terrain,
+                                              const gl::ShaderLibrary& shaders, const gl::Bindings& bindings) {
+  if (auto context = gl::require_context(); !context) return tl::unexpected(context.error());
+  RoamOptions options;
+  options.max_triangles = scene.max_triangles;
+  options.target_px = scene.target_px;
+  auto cpu = SceneFrame::create(scene.layers, terrain.bounds, options);
+  if (!cpu) return tl::unexpected(cpu.error());
+  auto frame = gl::Frame::create(bindings);
+  if (!frame) return tl::unexpected(frame.error());
+  auto ground = gl::GroundTextures::create(terrain.field, terrain.colors);
+  if (!ground) return tl::unexpected(ground.error());
+  auto programs = build_programs(scene.layers, shaders, bindings);
+  if (!programs) return tl::unexpected(programs.error());
+  const bool timed = gpu_can_time();
+  return SceneRenderer(std::unique_ptr<Impl>(new Impl{terrain, shaders, bindings, scene.layers, std::move(*frame),
+                                                      std::move(*ground), std::move(*cpu), std::move(*programs),
+                                                      GpuTimer(timed), GpuTimer(timed), GpuTimer(timed)}));
+}
+
+Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighting& lighting, double time_s,
+                                              GLuint framebuffer, int samples, bool wait_for_stats) {
+  Impl& self = *impl_;
+  SceneFrameStats stats;
+  const auto begin = std::chrono::steady_clock::now();
+  auto roam = self.cpu.mesh().update(view);
+  if (!roam) return tl::unexpected(roam.error());
+  stats.roam = *roam;
+  self.programs.terrain.upload(self.cpu.mesh());
+  stats.cpu_roam_ms = ms_since(begin);
+
+  self.frame.upload(view, lighting, time_s, samples);
+  self.terrain_timer.begin();
+  self.programs.terrain.draw(view, self.frame, self.ground);
+  self.terrain_timer.end();
+  if (self.sky_on) self.programs.sky.draw(self.frame);
+  if (self.vegetation_on) self.draw_vegetation(view, framebuffer, stats);
+  self.gather(wait_for_stats, stats);
+  stats.bound_px = self.cpu.mesh().bound_px();
+  return stats;
+}
+
+void SceneRenderer::set_vegetation(bool enabled) {
+  impl_->vegetation_on = enabled;
+}
+
+void SceneRenderer::set_sky(bool enabled) {
+  impl_->sky_on = enabled;
+}
+
+Expected<void> SceneRenderer::set_layer(size_t index, const Layer& layer) {
+  SWARD_ASSERT(index < impl_->layers.size(), "set_layer: no layer has this index");
+  auto vegetation = VegetationRenderer::create(layer, impl_->shaders, impl_->bindings);
+  if (!vegetation) return tl::unexpected(vegetation.error());
+  impl_->programs.vegetation[index] = std::move(*vegetation);
+  impl_->cpu.set_layer(index, layer);
+  impl_->layers[index] = layer;
+  return {};
+}
+
+Expected<void> SceneRenderer::reload(const gl::ShaderLibrary& shaders) {
+  auto programs = build_programs(impl_->layers, shaders, impl_->bindings);
+  if (!programs) return tl::unexpected(programs.error());
+  impl_->programs = std::move(*programs);
+  impl_->shaders = shaders;
+  return {};
+}
+
+RoamMesh& SceneRenderer::mesh() {
+  return impl_->cpu.mesh();
+}
+
+const std::vector<Layer>& SceneRenderer::layers() const {
+  return impl_->layers;
+}
+
+std::vector<Plant> SceneRenderer::plants_cpu(const View& view) const {
+  return impl_->cpu.plants(view, impl_->terrain.colors);
+}
+
+Expected<std::vector<Plant>> SceneRenderer::plants_gpu(const View& view, GLuint framebuffer) {
+  std::vector<Plant> all;
+  for (size_t i = 0; i < impl_->programs.vegetation.size(); ++i) {
+    const LayerFrame& layer = impl_->cpu.layers()[i];
+    auto grown = impl_->programs.vegetation[i].read_back(impl_->frame, impl_->ground, view, layer.seeding, framebuffer);
+    if (!grown) return tl::unexpected(grown.error());
+    for (Plant& plant : *grown) plant.species += layer.first_species;
+    all.insert(all.end(), grown->begin(), grown->end());
+  }
+  return all;
+}
+
+}  // namespace sward::host
