@@ -16,7 +16,9 @@ struct MapGeometry {
   glm::dvec2 size{1};    ///< Metres east and north, > 0.
   glm::ivec2 texels{1};  ///< Width and height, > 0.
 };
-inline MapGeometry geometry_of(const ColorMap& map) { return {map.size, {map.width, map.height}}; }
+inline MapGeometry geometry_of(const ColorMap& map) {
+  return {map.size, {map.width, map.height}};
+}
 
 /// What the uniform block of a layer holds for one view. `sun_azimuth`: radians, 0 east, counter-clockwise.
 shared::LayerParams make_layer_params(const Layer& layer, const View& view, const MapGeometry& map, float sun_azimuth);

@@ -2,3 +2,151 @@
 // SPDX-License-Identifier: MIT
 
 #include <sward/vegetation/species.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace sward {
+
+namespace {
+
+constexpr float k_infinity = std::numeric_limits<float>::infinity();
+/// Colour distances are never less (CONTRACT, Classification); with the largest exponent the best score stays finite.
+constexpr float k_least_distance = 1.0e-4f;
+constexpr float k_largest_exponent = 8.0f;
+constexpr float k_largest_weight = 100.0f;
+/// Seeds a triangle: ranks stay exact in a float and below the clusters' index space.
+constexpr float k_most_seeds = 1048576.0f;
+
+/// Collects the first field that is out of range; the rest is then skipped.
+class Check {
+ public:
+  explicit Check(std::string owner) : owner_(std::move(owner)) {}
+
+  /// `value` must lie within [low, high]; NaN never does.
+  void within(const char* field, float value, float low, float high) {
+    if (!(value >= low && value <= high)) report(field, value, low, high, '[');
+  }
+  void above(const char* field, float value, float low, float high) {
+    if (!(value > low && value <= high)) report(field, value, low, high, '(');
+  }
+  void finite_above(const char* field, float value, float low) {
+    above(field, value, low, std::numeric_limits<float>::max());
+  }
+  void finite_from(const char* field, float value, float low) {
+    within(field, value, low, std::numeric_limits<float>::max());
+  }
+  void range(const char* field, FloatRange value, float low, float high) {
+    within((std::string(field) + ".min").c_str(), value.min, low, high);
+    within((std::string(field) + ".max").c_str(), value.max, low, high);
+    if (value.max < value.min) refuse(std::string(field) + ".max is less than " + field + ".min");
+  }
+  void components(const char* field, glm::vec3 value, float low, float high) {
+    for (int i = 0; i < 3; ++i)
+      within((std::string(field) + "[" + std::to_string(i) + "]").c_str(), value[i], low, high);
+  }
+  void require(bool condition, const std::string& message) {
+    if (!condition) refuse(message);
+  }
+
+  Expected<void> result() const { return message_.empty() ? Expected<void>{} : Expected<void>{fail(message_)}; }
+
+ private:
+  void report(const char* field, float value, float low, float high, char bracket) {
+    std::ostringstream text;
+    text << field << " is " << value << " but must lie in " << bracket << low;
+    if (high >= std::numeric_limits<float>::max())
+      text << ", infinity" << (high < k_infinity ? ")" : "]");
+    else
+      text << ", " << high << "]";
+    refuse(text.str());
+  }
+  void refuse(const std::string& message) {
+    if (message_.empty()) message_ = owner_ + ": " + message;
+  }
+
+  std::string owner_, message_;
+};
+
+void check_classification(const Species& species, Check& check) {
+  check.require(species.kind == PlantKind::none || species.kind == PlantKind::blade, "kind is none that is known");
+  check.within("reference_hsv[0]", species.reference_hsv.x, 0.0f, std::nextafter(1.0f, 0.0f));
+  check.within("reference_hsv[1]", species.reference_hsv.y, 0.0f, 1.0f);
+  check.within("reference_hsv[2]", species.reference_hsv.z, 0.0f, 1.0f);
+  check.components("weights", species.weights, 0.0f, k_largest_weight);
+  check.require(species.weights != glm::vec3(0.0f), "weights are all 0; at least one must be more");
+  check.above("exponent", species.exponent, 0.0f, k_largest_exponent);
+  check.within("max_distance", species.max_distance, k_least_distance, k_infinity);
+  check.require(!species.forbids || species.kind == PlantKind::none, "forbids is set, which only kind none may");
+}
+
+void check_growth(const Species& species, Check& check) {
+  constexpr float k_half_pi = 1.5707964f;
+  constexpr float k_most = 1.0e4f;
+  check.range("height_m", species.height_m, 1.0e-3f, 200.0f);
+  check.range("width_m", species.width_m, 1.0e-5f, 200.0f);
+  check.range("stiffness", species.stiffness, 0.0f, 1.0f);
+  check.within("lean", species.lean, 0.0f, k_half_pi);
+  check.within("phototropism", species.phototropism, 0.0f, 1.0f);
+  check.within("max_segments", float(species.max_segments), 1.0f, 64.0f);
+  check.components("tint", species.tint, 0.0f, k_most);
+  check.components("age_tint", species.age_tint, 0.0f, k_most);
+  check.within("age_share", species.age_share, 0.0f, 1.0f);
+  check.within("root_shade", species.root_shade, 0.0f, 1.0f);
+  check.within("translucency", species.translucency, 0.0f, k_most);
+  check.within("attenuation", species.attenuation, 0.0f, k_most);
+  check.within("specular", species.specular, 0.0f, k_most);
+  check.within("shininess", species.shininess, 1.0f, k_most);
+}
+
+Expected<void> check_layer(const Layer& layer, const std::string& owner) {
+  Check check(owner);
+  check.require(!layer.species.empty(), "species: there is none; a layer needs at least one");
+  check.require(layer.species.size() <= size_t(k_max_species),
+                "species: there are " + std::to_string(layer.species.size()) + " but at most " +
+                    std::to_string(k_max_species) + " fit; use several layers");
+  check.finite_above("triangle_area_m2", layer.triangle_area_m2, 0.0f);
+  check.finite_above("horizon_m", layer.horizon_m, 0.0f);
+  check.within("cluster_size", float(layer.cluster_size), 1.0f, float(k_max_cluster_size));
+  check.require(
+      layer.law == DensityLaw::distance || layer.law == DensityLaw::screen_area || layer.law == DensityLaw::world_area,
+      "law is none that is known");
+  check.finite_above("density", layer.density, 0.0f);
+  check.finite_above("full_distance_m", layer.full_distance_m, 0.0f);
+  check.above("falloff", layer.falloff, 0.0f, 16.0f);
+  check.within("ceiling", float(layer.ceiling), 1.0f, k_most_seeds);
+  check.finite_above("full_segments_m", layer.full_segments_m, 0.0f);
+  check.finite_from("shadow_distance_m", layer.shadow_distance_m, 0.0f);
+  if (layer.law == DensityLaw::distance) {
+    check.above("density times triangle_area_m2 (seeds a triangle)", layer.density * layer.triangle_area_m2, 0.0f,
+                k_most_seeds);
+  }
+  return check.result();
+}
+
+}  // namespace
+
+Expected<void> validate(const Layer& layer) {
+  const std::string owner = "layer '" + layer.name + "'";
+  if (auto checked = check_layer(layer, owner); !checked) return checked;
+  for (size_t i = 0; i < layer.species.size(); ++i) {
+    const Species& species = layer.species[i];
+    Check check(owner + ": species " + std::to_string(i) + " '" + species.name + "'");
+    check_classification(species, check);
+    check_growth(species, check);
+    if (auto checked = check.result(); !checked) return checked;
+  }
+  return {};
+}
+
+float canopy_height(const Layer& layer) {
+  float height = 0.0f;
+  for (const Species& species : layer.species) {
+    if (species.kind != PlantKind::none) height = std::max(height, species.height_m.max);
+  }
+  return height;
+}
+
+}  // namespace sward

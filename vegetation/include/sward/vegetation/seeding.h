@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <sward/terrain/color_map.h>
 #include <sward/terrain/fixed_triangles.h>
 #include <sward/terrain/view.h>
 #include <sward/vegetation/species.h>
+#include <array>
 
 namespace sward {
 
@@ -14,42 +14,60 @@ namespace sward {
 /// what stands where is static (id, edges, texel position, limit); what moves with the eye is the apex and, for the
 /// laws of the screen, the limit.
 struct TriangleRecord {
-  glm::vec3 apex{0};          ///< Relative to the eye, metres.
+  glm::vec3 apex{0};  ///< Relative to the eye, metres.
   uint32_t id_low = 0;
   glm::vec3 to_left{0};
   uint32_t id_high = 0;
   glm::vec3 to_right{0};
-  uint32_t surface = 0;       ///< Root node in the surface buffer, 0: flat.
-  glm::ivec2 texel{0};        ///< Base-map texel of the apex, integer part (floor) of (u width, v height) ...
-  glm::vec2 texel_fraction{0};///< ... and the rest; offsets in metres are scaled by SeedingUniforms::texels_per_m.
-  float limit = 0;            ///< distance law: area * rho0, the seeds at full density; else: the triangle's seed count n.
-  float area = 0;             ///< Static area, square metres.
-  float surface_z = 0;        ///< Add to SurfaceNode::z to get z relative to the eye.
-  uint32_t submitted = 0;     ///< Seeds submitted for this triangle.
+  uint32_t surface = 0;         ///< Root node in the surface buffer, 0: flat.
+  glm::ivec2 texel{0};          ///< Base-map texel of the apex, integer part (floor) of (u width, v height) ...
+  glm::vec2 texel_fraction{0};  ///< ... and the rest; offsets in metres are scaled by LayerParams::map.
+  float limit = 0;         ///< distance law: area * rho0, the seeds at full density; else: the triangle's seed count n.
+  float area = 0;          ///< Static area, square metres.
+  float surface_z = 0;     ///< Add to SurfaceNode::z to get z relative to the eye.
+  uint32_t submitted = 0;  ///< Seeds submitted for this triangle.
 };
 static_assert(sizeof(TriangleRecord) == 80);
 
 /// One instanced draw: `triangles` records from `first`, `clusters` instances each.
 struct DensityBin {
-  uint32_t first = 0, triangles = 0, clusters = 0;
+  uint32_t first = 0, triangles = 0, clusters = 0;  ///< clusters: ceil(upper edge / cluster size), 0 if empty.
 };
 
 /// Result of seeding a layer for one view: plain arrays, uploaded as they are.
 struct Seeding {
-  std::vector<TriangleRecord> records;             ///< Sorted by bin, largest count first.
-  std::array<DensityBin, k_density_bins> bins{};   ///< In drawing order: largest count first; empty bins have 0 triangles.
-  uint32_t clusters = 0;                           ///< Clusters that the bins submit.
-  float n_min = 0, n_max = 0;                      ///< Smallest and largest count of this frame.
-  double surface_z_origin = 0;                     ///< FixedTriangles::surface_z, for the CPU twin.
+  std::vector<TriangleRecord> records;  ///< Sorted by bin, largest count first.
+  std::array<DensityBin, k_density_bins>
+      bins{};                    ///< In drawing order: largest count first; empty bins have 0 triangles.
+  uint32_t clusters = 0;         ///< Clusters that the bins submit.
+  float n_min = 0, n_max = 0;    ///< Smallest and largest count of this frame.
+  double surface_z_origin = 0;   ///< FixedTriangles::surface_z, for the CPU twin.
+  std::vector<uint32_t> source;  ///< Index in FixedTriangles::triangles of each record.
+
+  /// What seed() keeps a triangle while it counts: scratch, meaningless to others.
+  struct Count {
+    float limit = 0;
+    uint32_t submitted = 0, bin = 0;
+  };
+  std::vector<Count> counts;
 };
 
-/// Seeds that a triangle is given by the layer's law (CONTRACT: How many). 0 beyond the horizon.
+/// Seeds that a triangle is given by the layer's law, not rounded: it submits the next whole number. 0 beyond the
+/// horizon (horizon_m times zoom). With A the static area, d the distance to its nearest point, d0 full_distance_m
+/// times zoom:
+///   distance     A density                       to d0, then A density (d0 / d)^falloff
+///   screen_area  min(density S^falloff, ceiling) S the projected area; the ceiling behind the near plane
+///   world_area   min(density W (-n . v) / (|v|^2 |v|), ceiling)  W, n: area and normal of the drawn triangle, v from
+///   the
+///                eye to its centre; 0 where it faces away
 float seed_limit(const Layer& layer, const View& view, const FixedTriangle& triangle);
 
-/// Upper edges of the 32 geometric bins between n_min (>= 1) and n_max: e_i = n_min (n_max/n_min)^((i+1)/32).
+/// Upper edges of the 32 geometric bins between n_min (>= 1) and n_max (>= n_min), smallest first:
+/// e_i = n_min (n_max/n_min)^((i+1)/32); the last is n_max itself.
 std::array<float, k_density_bins> bin_edges(float n_min, float n_max);
 
-/// Counts, bins and lays out. Clears `out` first; allocates only when a frame needs more than any before.
+/// Counts, bins and lays out. Clears `out` first; allocates only when a frame needs more than any before. Cost: linear
+/// in the triangles. Triangles without seeds get no record. Any thread, one `out` a thread.
 void seed(const Layer& layer, const View& view, const ColorMap& map, const FixedTriangles& triangles, Seeding& out);
 
 }  // namespace sward

@@ -1,0 +1,202 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+// How many seeds a triangle gets, and their layout for instanced draws.
+//
+// After D. Papavasiliou, "Real-Time Grass (and Other Procedural Objects) on Terrain" (2015): equations 1 and 2 (the
+// second with its sign mended, since v runs from the observer to the triangle) and section 3.2. Departures: a law of
+// distance, upper edges instead of centres for the geometric bins so that no triangle gets fewer seeds than it asked
+// for, and this frame's extremes instead of the last one's.
+
+#include <sward/vegetation/seeding.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sward {
+
+namespace {
+
+/// Ranks above are not exact in a float. Far beyond what a layer that validates asks for.
+constexpr float k_most_seeds = 16777216.0f;
+
+float distance_law(const Layer& layer, float zoom, float area, float distance) {
+  const float ratio = std::max(distance / (layer.full_distance_m * zoom), 1.0f);
+  return area * layer.density / std::pow(ratio, layer.falloff);
+}
+
+float screen_law(const Layer& layer, float screen_area) {
+  if (std::isinf(screen_area)) return float(layer.ceiling);
+  return std::min(layer.density * std::pow(screen_area, layer.falloff), float(layer.ceiling));
+}
+
+/// Area times normal is half the cross product; -n . v is positive for ground that is seen.
+float world_law(const Layer& layer, const View& view, const FixedTriangle& triangle) {
+  const glm::dvec3 to_left(triangle.to_left), to_right(triangle.to_right);
+  const glm::dvec3 v = triangle.apex - view.eye + (to_left + to_right) / 3.0;
+  const double facing = -0.5 * glm::dot(glm::cross(to_left, to_right), v);
+  if (facing <= 0.0) return 0.0f;
+  const double distance = glm::length(v);
+  const double seeds = double(layer.density) * facing / (distance * distance * distance);
+  return float(std::min(seeds, double(layer.ceiling)));
+}
+
+float limit_at(const Layer& layer, const View& view, float zoom, const FixedTriangle& triangle, float distance) {
+  if (!(distance <= layer.horizon_m * zoom)) return 0.0f;
+  switch (layer.law) {
+    case DensityLaw::distance:
+      return distance_law(layer, zoom, triangle.area, distance);
+    case DensityLaw::screen_area:
+      return screen_law(layer, triangle.screen_area);
+    case DensityLaw::world_area:
+      return world_law(layer, view, triangle);
+  }
+  return 0.0f;
+}
+
+/// A node of the drawn surface below a triangle: corners as weights of (left, right).
+struct SurfaceCorner {
+  glm::vec2 apex, left, right;
+  uint32_t node;
+};
+
+/// How far the drawn surface leaves the triangle's plane, metres, up or down.
+float surface_deviation(const FixedTriangles& triangles, const FixedTriangle& triangle) {
+  SurfaceCorner stack[64];
+  int size = 0;
+  float deviation = 0.0f;
+  const double base = triangles.surface_z - triangle.apex.z;
+  stack[size++] = {{0.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, 1.0f}, triangle.surface};
+  while (size > 0) {
+    const SurfaceCorner at = stack[--size];
+    const SurfaceNode& node = triangles.surface[at.node];
+    const glm::vec2 middle = 0.5f * (at.left + at.right);
+    const float plane = middle.x * triangle.to_left.z + middle.y * triangle.to_right.z;
+    deviation = std::max(deviation, std::abs(float(double(node.z) + base) - plane));
+    SWARD_ASSERT(size + 2 <= 64, "a triangle's drawn surface is deeper than any bintree");
+    if (node.child[0] != 0) stack[size++] = {middle, at.apex, at.left, node.child[0]};
+    if (node.child[1] != 0) stack[size++] = {middle, at.right, at.apex, node.child[1]};
+  }
+  return deviation;
+}
+
+/// A bound from below: where the mesh is finer than the triangle, seeds stand off its plane.
+float nearest_seed(const FixedTriangles& triangles, const FixedTriangle& triangle) {
+  if (triangle.surface == 0) return triangle.distance;
+  return std::max(triangle.distance - surface_deviation(triangles, triangle), 0.0f);
+}
+
+/// Seeds of every triangle; their smallest and largest number goes to n_min and n_max.
+void count_seeds(const Layer& layer, const View& view, const FixedTriangles& triangles, Seeding& out) {
+  const float zoom = float(view.zoom());
+  const float full = layer.law == DensityLaw::distance ? layer.density : 0.0f;
+  uint32_t least = UINT32_MAX, most = 0;
+  out.counts.resize(triangles.triangles.size());
+  for (size_t i = 0; i < triangles.triangles.size(); ++i) {
+    const FixedTriangle& triangle = triangles.triangles[i];
+    const float limit = limit_at(layer, view, zoom, triangle, nearest_seed(triangles, triangle));
+    const uint32_t submitted = limit > 0.0f ? uint32_t(std::ceil(std::min(limit, k_most_seeds))) : 0u;
+    out.counts[i] = {full > 0.0f ? triangle.area * full : limit, submitted, 0};
+    if (submitted == 0) continue;
+    least = std::min(least, submitted);
+    most = std::max(most, submitted);
+  }
+  out.n_min = most > 0 ? float(least) : 0.0f;
+  out.n_max = float(most);
+}
+
+/// Bin of a count, smallest first: the first whose upper edge reaches it. The logarithm guesses, the edges decide.
+uint32_t bin_of(float count, float n_min, float bins_per_log, const std::array<float, k_density_bins>& edges) {
+  const int guess = int(std::log(count / n_min) * bins_per_log);
+  int bin = std::clamp(guess, 0, k_density_bins - 1);
+  while (bin > 0 && count <= edges[bin - 1]) --bin;
+  while (bin < k_density_bins - 1 && count > edges[bin]) ++bin;
+  return uint32_t(bin);
+}
+
+/// Bins in drawing order (largest count first), with their sizes and first records.
+void lay_out_bins(const Layer& layer, Seeding& out) {
+  const std::array<float, k_density_bins> edges = bin_edges(out.n_min, out.n_max);
+  const float bins_per_log = out.n_max > out.n_min ? float(k_density_bins) / std::log(out.n_max / out.n_min) : 0.0f;
+  for (Seeding::Count& count : out.counts) {
+    if (count.submitted == 0) continue;
+    count.bin = uint32_t(k_density_bins - 1) - bin_of(float(count.submitted), out.n_min, bins_per_log, edges);
+    ++out.bins[count.bin].triangles;
+  }
+  uint32_t first = 0;
+  for (int i = 0; i < k_density_bins; ++i) {
+    DensityBin& bin = out.bins[i];
+    bin.first = first;
+    first += bin.triangles;
+    if (bin.triangles == 0) continue;
+    bin.clusters = uint32_t(std::ceil(edges[k_density_bins - 1 - i] / float(layer.cluster_size)));
+    out.clusters += bin.triangles * bin.clusters;
+  }
+  out.records.resize(first);
+  out.source.resize(first);
+}
+
+/// Whole texel and fraction of an apex; far outside the map the whole texel saturates, where everything is outside.
+void locate_apex(const ColorMap& map, const FixedTriangle& triangle, TriangleRecord& record) {
+  constexpr double k_far = 1.0e9;
+  const double u = (triangle.apex.x - map.min_corner.x) / map.size.x * map.width;
+  const double v = (map.min_corner.y + map.size.y - triangle.apex.y) / map.size.y * map.height;
+  const glm::dvec2 place = glm::clamp(glm::dvec2(u, v), -k_far, k_far);
+  const glm::dvec2 whole = glm::floor(place);
+  record.texel = glm::ivec2(whole);
+  record.texel_fraction = glm::vec2(place - whole);
+}
+
+TriangleRecord make_record(const View& view, const ColorMap& map, const FixedTriangles& triangles,
+                           const FixedTriangle& triangle, const Seeding::Count& count) {
+  TriangleRecord record;
+  record.apex = glm::vec3(triangle.apex - view.eye);
+  record.id_low = triangle.id.low();
+  record.to_left = triangle.to_left;
+  record.id_high = triangle.id.high();
+  record.to_right = triangle.to_right;
+  record.surface = triangle.surface;
+  locate_apex(map, triangle, record);
+  record.limit = count.limit;
+  record.area = triangle.area;
+  record.surface_z = float(triangles.surface_z - view.eye.z);
+  record.submitted = count.submitted;
+  return record;
+}
+
+}  // namespace
+
+float seed_limit(const Layer& layer, const View& view, const FixedTriangle& triangle) {
+  return limit_at(layer, view, float(view.zoom()), triangle, triangle.distance);
+}
+
+std::array<float, k_density_bins> bin_edges(float n_min, float n_max) {
+  std::array<float, k_density_bins> edges{};
+  const double ratio = double(n_max) / double(n_min);
+  for (int i = 0; i < k_density_bins; ++i) {
+    edges[i] = float(double(n_min) * std::pow(ratio, double(i + 1) / double(k_density_bins)));
+  }
+  edges[k_density_bins - 1] = n_max;
+  return edges;
+}
+
+void seed(const Layer& layer, const View& view, const ColorMap& map, const FixedTriangles& triangles, Seeding& out) {
+  out.bins = {};
+  out.clusters = 0;
+  out.surface_z_origin = triangles.surface_z;
+  out.records.clear();
+  out.source.clear();
+  count_seeds(layer, view, triangles, out);
+  if (out.n_max == 0.0f) return;
+  lay_out_bins(layer, out);
+  std::array<uint32_t, k_density_bins> next{};
+  for (int i = 0; i < k_density_bins; ++i) next[i] = out.bins[i].first;
+  for (size_t i = 0; i < triangles.triangles.size(); ++i) {
+    if (out.counts[i].submitted == 0) continue;
+    const uint32_t place = next[out.counts[i].bin]++;
+    out.records[place] = make_record(view, map, triangles, triangles.triangles[i], out.counts[i]);
+    out.source[place] = uint32_t(i);
+  }
+}
+
+}  // namespace sward
