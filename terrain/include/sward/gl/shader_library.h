@@ -13,8 +13,9 @@ namespace sward::gl {
 /// Every file of shaders/, embedded at build time ("grass_blade.tese.glsl").
 std::span<const EmbeddedText> embedded_shaders();
 
-/// Resolves `#include "name"` (each file once) and marks lines with `#line`; file numbers are indices into `files`.
-/// The one resolver for build and run time.
+/// A stage's text with every `#include "name"` in place (each file once) and lines marked with `#line`; file numbers are
+/// indices into `files`. Includes are textual: they must not stand inside of #if. A file that includes itself, directly
+/// or through others, is an error. The one resolver for build and run time.
 struct ResolvedSource {
   std::string text;
   std::vector<std::string> files;
@@ -39,15 +40,20 @@ class ShaderLibrary {
  public:
   ShaderLibrary() = default;
   explicit ShaderLibrary(std::string override_directory) : override_directory_(std::move(override_directory)) {}
+  /// A later source of the same name replaces the earlier one.
   void add_source(std::string name, std::string text);
 
+  /// `#version 450 core`, the defines, then the file. Any thread; needs no context. Errors name file and line.
   Expected<ResolvedSource> resolve(std::string_view file, std::span<const Define> defines) const;
   /// Compiles and links. On failure: an error with the stage's file and the driver's log, file numbers replaced by
-  /// names. Begins every stage with `#version 450 core` and the defines. GL thread.
+  /// names. The program carries desc.name as its debug label. GL thread.
   Expected<Program> build(const ProgramDesc& desc) const;
 
  private:
+  struct Resolution;
   Expected<std::string> find(std::string_view file) const;
+  Expected<void> append(std::string_view file, std::string_view text, Resolution& resolution) const;
+  Expected<void> include(std::string_view argument, int line, Resolution& resolution) const;
   std::string override_directory_;
   std::vector<std::pair<std::string, std::string>> sources_;
 };

@@ -1,0 +1,22 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+#include <sward/gl/bindings.h>
+#include <sward/gl/shader_library.h>
+
+namespace sward::gl {
+
+std::vector<Define> binding_defines(const Bindings& bindings) {
+  return {
+      {"SWARD_BINDING_FRAME", std::to_string(bindings.frame)},
+      {"SWARD_BINDING_SPECIES", std::to_string(bindings.species)},
+      {"SWARD_BINDING_BASE_MAP", std::to_string(bindings.base_map)},
+      {"SWARD_BINDING_BASE_MAP_RAW", std::to_string(bindings.base_map_raw)},
+      {"SWARD_BINDING_SLOPE_MAP", std::to_string(bindings.slope_map)},
+      {"SWARD_BINDING_TRIANGLES", std::to_string(bindings.triangles)},
+      {"SWARD_BINDING_SURFACE", std::to_string(bindings.surface)},
+      {"SWARD_BINDING_BLADE_SHAPE", std::to_string(bindings.blade_shape)},
+  };
+}
+
+}  // namespace sward::gl
