@@ -202,8 +202,8 @@ void lay_out(std::span<const double> phi, BladeShapes& shapes, int column) {
 double blade_k_prime(double stiffness) {
   static const double critical = critical_k_prime(k_blade_rows - 1);
   // s = sqrt(1 - k'/k'_c) falls evenly: the tip's deflection goes as s for stiff blades, so that equal steps of
-  // stiffness look equal; hanging blades take the upper end of s.
-  constexpr double k_hanging = 0.985, k_straight = 0.04;
+  // stiffness look equal. Softer than 0.72 a blade only lies on the ground.
+  constexpr double k_hanging = 0.72, k_straight = 0.04;
   const double t = std::clamp(stiffness, 0.0, 1.0);
   const double s = k_hanging + (k_straight - k_hanging) * t;
   return critical * (1.0 - s * s);

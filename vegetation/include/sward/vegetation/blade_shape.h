@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/terrain/error.h>
 #include <glm/glm.hpp>
 #include <span>
-#include <sward/terrain/error.h>
 #include <vector>
 
 namespace sward {
@@ -22,14 +22,17 @@ std::vector<double> blade_residual(std::span<const double> phi, double k_prime);
 
 /// Shapes over stiffness 0..1, solved once at N = 16: `columns` stiffnesses by k_blade_rows points at equal arc length
 /// from root (row 0) to tip. x: lateral deflection, y: height, both in blade lengths; z: inclination T from the
-/// vertical, radians. Segments that would pass below the ground lie on it, length kept. Stiffness 1 is nearly straight.
+/// vertical, radians, of the segments that meet at the point (their mean; the only one at root and tip). Segments that
+/// would pass below the ground lie on it, length kept. Column c holds stiffness c / (k_blade_columns - 1); 1 is nearly
+/// straight. A chain of any other number of segments samples this curve by arc length.
 inline constexpr int k_blade_rows = 17;
 inline constexpr int k_blade_columns = 64;
 struct BladeShapes {
   std::vector<glm::vec4> texels;  ///< k_blade_rows rows of k_blade_columns; w unused (0).
 };
-/// k' at N = 16 of a stiffness in [0, 1].
+/// k' at N = 16 of a stiffness in [0, 1], increasing: 0 hangs to the ground, 1 is just below the critical value.
 double blade_k_prime(double stiffness);
+/// About 10 ms. Any thread.
 Expected<BladeShapes> make_blade_shapes();
 
 }  // namespace sward
