@@ -29,5 +29,7 @@ SWARD_FN uint lcg_next(uint state) { return state * 1664525u + 1013904223u; }
 //   seed     rank | 2^31          start of the seed's sequence: height, width, stiffness, azimuth, age, lean, phase
 //   cluster  cluster | 2^30       pair: stratum, z (choice of the second species)
 //   cluster  cluster | 2^30|2^31  pair: r1, r2 of the cluster's centre inside the stratum
+//   triangle 2^32 - 1             where its ranks start to count (common_plant.glsl)
 const uint k_cluster_space = 0x40000000u;
 const uint k_sequence_space = 0x80000000u;
+const uint k_triangle_index = 0xFFFFFFFFu;

@@ -55,9 +55,13 @@ struct Presence {
   float widen;  // factor on the width, 1..8
 };
 
+// Ranks count from a start between 0 and 1 that is the triangle's own: where 2.3 seeds are due, three triangles of ten
+// show a third. Without it every triangle would round up, and thin layers would stand far too dense.
+SWARD_FN float first_rank(uvec2 id) { return uniform_float(random_pair(k_triangle_index, id).x); }
+
 // How much of the seed of this rank is shown at distance d (metres, eye to seed). `limit` is the record's: for the
 // distance law area * rho0, else the triangle's seed count.
-SWARD_FN Presence seed_presence(LayerParams layer, float limit, uint rank, float d) {
+SWARD_FN Presence seed_presence(LayerParams layer, float limit, uvec2 id, uint rank, float d) {
   SWARD_PRECISE float r = float(rank);
   SWARD_PRECISE float thinning = 1.0f;
   SWARD_PRECISE float here = limit;
@@ -72,6 +76,7 @@ SWARD_FN Presence seed_presence(LayerParams layer, float limit, uint rank, float
   p.fade = p.grow;
   p.widen = 1.0f;
   if (layer.reach.z != 0.0f) return p;
+  r = r + first_rank(id);
   SWARD_PRECISE float margin = clamp((layer.reach.x - d) / (0.2f * layer.reach.x), 0.0f, 1.0f);
   here = here * margin;
   SWARD_PRECISE float grow = here > 0.0f ? clamp((here - r) / (0.4f * here), 0.0f, 1.0f) : 0.0f;

@@ -99,7 +99,7 @@ class Grower {
     const vec2 point = seed_point(id_, rank, cluster);
     const vec2 offset = offset_of(point);
     const float distance = seed_distance(record_.apex, offset, relative_height(point));
-    const Presence presence = seed_presence(ground_.layer, record_.limit, rank, distance);
+    const Presence presence = seed_presence(ground_.layer, record_.limit, id_, rank, distance);
     if (!(presence.fade > 0.0f)) return;
     if (choose_plant(ground_, record_, offset, cluster.z).species < 0) return;
     const PlantTraits traits =
