@@ -60,6 +60,9 @@ class RoamMesh {
 
   // What a renderer draws; spans are valid until the next call that is not const.
 
+  /// Names the result of the last update: one more after every successful update (creation counts as one), and never
+  /// the same number for two meshes of a process. A renderer sees by it whether it missed an update.
+  uint64_t revision() const;
   /// World position that vertices are relative to. Changes (all vertices then count as changed) when the eye has gone
   /// more than a kilometre from it.
   glm::dvec3 origin() const;
