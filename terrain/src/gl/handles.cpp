@@ -14,7 +14,24 @@ Owner create(Create create_one) {
   return Owner(id);
 }
 
+constexpr GLenum k_unpack_names[] = {GL_UNPACK_ALIGNMENT,   GL_UNPACK_ROW_LENGTH, GL_UNPACK_IMAGE_HEIGHT,
+                                     GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_ROWS,  GL_UNPACK_SWAP_BYTES};
+
 }  // namespace
+
+DefaultUnpack::DefaultUnpack() {
+  glGetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &buffer_);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  for (int i = 0; i < k_count; ++i) {
+    glGetIntegerv(k_unpack_names[i], &values_[i]);
+    glPixelStorei(k_unpack_names[i], i == 0 ? 1 : 0);
+  }
+}
+
+DefaultUnpack::~DefaultUnpack() {
+  for (int i = 0; i < k_count; ++i) glPixelStorei(k_unpack_names[i], values_[i]);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, GLuint(buffer_));
+}
 
 Buffer create_buffer() {
   return create<Buffer>([](GLuint* id) { glCreateBuffers(1, id); });

@@ -12,7 +12,8 @@ namespace sward::gl {
 /// storage, two views) and the slope map. GL thread.
 class GroundTextures {
  public:
-  /// Uploads copies; the arguments may go away afterwards. Fails when a map exceeds the device's texture size.
+  /// Uploads copies; the arguments may go away afterwards. Fails when a map exceeds the device's texture size or the
+  /// base map does not validate. Leaves all state as it was. Cost: a few hundred ms for maps of 8192 x 8192.
   static Expected<GroundTextures> create(const HeightField& field, const ColorMap& colors);
 
   GLuint base_map() const { return base_map_.id(); }          ///< SRGB8_ALPHA8, trilinear, clamped
@@ -22,11 +23,13 @@ class GroundTextures {
   glm::dvec2 map_size() const { return map_size_; }           ///< Metres
   glm::dvec2 field_min() const { return field_min_; }         ///< Outer edge of the slope map's texels
   glm::dvec2 field_size() const { return field_size_; }
-  glm::ivec2 texels() const { return texels_; }               ///< Base map, width and height
+  glm::dvec2 data_min() const { return data_min_; }  ///< Western, southern corner of the height data
+  glm::dvec2 data_max() const { return data_max_; }  ///< Eastern, northern; what lies beyond is padding
+  glm::ivec2 texels() const { return texels_; }      ///< Base map, width and height
 
  private:
   Texture base_map_, base_map_raw_, slope_map_;
-  glm::dvec2 map_min_{0}, map_size_{1}, field_min_{0}, field_size_{1};
+  glm::dvec2 map_min_{0}, map_size_{1}, field_min_{0}, field_size_{1}, data_min_{0}, data_max_{0};
   glm::ivec2 texels_{1};
 };
 

@@ -63,6 +63,21 @@ Query create_query(GLenum target);
 Feedback create_feedback();
 Framebuffer create_framebuffer();
 
+/// The default pixel-unpack state (no unpack buffer, tight rows) while it lives, then what it found. For creation, which
+/// reads pixels from memory; it queries, so it does not belong in a frame.
+class DefaultUnpack {
+ public:
+  DefaultUnpack();
+  ~DefaultUnpack();
+  DefaultUnpack(const DefaultUnpack&) = delete;
+  DefaultUnpack& operator=(const DefaultUnpack&) = delete;
+
+ private:
+  static constexpr int k_count = 6;
+  GLint buffer_ = 0;
+  GLint values_[k_count] = {};
+};
+
 /// Fails unless a context of at least GL 4.5 is current. Call it first in every creation: epoxy aborts the process at
 /// the first other GL call without a context.
 Expected<void> require_context();

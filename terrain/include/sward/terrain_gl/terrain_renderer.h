@@ -6,6 +6,8 @@
 #include <sward/gl/ground.h>
 #include <sward/gl/shader_library.h>
 #include <sward/terrain/roam_mesh.h>
+#include <span>
+#include <vector>
 
 namespace sward {
 
@@ -14,26 +16,33 @@ class TerrainRenderer {
  public:
   static Expected<TerrainRenderer> create(const gl::ShaderLibrary& shaders, const gl::Bindings& bindings = {});
 
-  /// Copies what changed in the mesh since its last update into the GPU's buffers. Call once after each update (a
-  /// skipped update is noticed: everything is uploaded). Binds nothing. Returns bytes written.
+  /// Copies what changed in the mesh since its last update into the GPU's buffers. Call once after each update: after
+  /// a skipped one, or for another mesh, everything is uploaded; a second call writes nothing. Binds nothing. Returns
+  /// bytes written. Cost: the changed slots and the indices of the visible leaves.
   size_t upload(const RoamMesh& mesh);
 
   /// Draws the visible leaves into the bound framebuffer with one indexed draw.
   /// Binds: program, vertex array, uniform buffer bindings.frame, textures bindings.base_map, bindings.slope_map.
   /// Sets: nothing else; the host chooses depth test (GL_LESS, GL_LEQUAL or reversed), culling, blending, masks.
   /// Leaves: program 0, vertex array 0, those texture units and that uniform buffer binding 0.
+  /// Padding around the data is discarded. `view` must be the one that the frame was filled with.
   void draw(const View& view, const gl::Frame& frame, const gl::GroundTextures& ground);
 
   /// Triangles of the last upload.
   uint32_t triangles() const { return index_count_ / 3; }
 
  private:
+  size_t upload_vertices(const RoamMesh& mesh);
+  size_t upload_indices(std::span<const uint32_t> indices);
+
   gl::Bindings bindings_;
   gl::Program program_;
   gl::VertexArray vertex_array_;
   gl::Buffer vertices_, indices_;
   size_t vertex_capacity_ = 0, index_capacity_ = 0;
   uint32_t index_count_ = 0;
+  uint64_t revision_ = 0;        ///< Of the mesh's state that the buffers hold; 0: none.
+  std::vector<uint32_t> slots_;  ///< Scratch.
   glm::dvec3 origin_{0};
 };
 

@@ -1,0 +1,77 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+// The ground's colour from the base map, with the structure that lies below its texels: patches, clods, grains.
+// Everything is a function of the place alone; each octave fades before it would alias.
+#include "common_frame.glsl"
+#include "common_noise.glsl"
+
+struct GroundDetail {
+  float shade;   // factor on brightness, around 1
+  float litter;  // 0: as the base map says .. 1: bare earth and dry litter
+  vec2 warp;     // of the base map lookup, texels
+  vec2 slope;    // dz/dx, dz/dy of clods and grains
+};
+
+// Metres of ground that a pixel covers, along the view where it is longest.
+float ground_footprint(vec3 relative_position, vec3 normal) {
+  float distance = max(length(relative_position), 1.0e-3);
+  float facing = abs(dot(normal, relative_position)) / distance;
+  return distance / (frame.focal.x * max(facing, 0.06));
+}
+
+// Weight of an octave: full while a cell spans four pixels, nothing below two.
+float octave_weight(float cells, float footprint) { return 1.0 - smoothstep(0.25, 0.55, footprint * cells); }
+
+GroundDetail ground_detail(vec3 relative_position, vec3 normal) {
+  vec2 p = frame.eye_noise.xy + relative_position.xy;
+  float footprint = ground_footprint(relative_position, normal);
+  GroundDetail detail;
+  vec3 broad = ground_noise(p, 1.0 / 32.0, 1u);
+  vec3 patches = ground_noise(p, 0.125, 2u);
+  float wide = octave_weight(0.125, footprint);
+  detail.shade = 1.0 + 0.12 * broad.x + 0.16 * wide * patches.x;
+  detail.litter = 0.5 * broad.x + 0.9 * wide * patches.x;
+  detail.warp = vec2(0.0);
+  detail.slope = vec2(0.0);
+
+  // Octaves from half a metre to two centimetres: amplitudes of brightness, of height (m).
+  float cells = 0.5;
+  float height = 0.05;
+  float grain = 0.20;
+  for (uint i = 0u; i < 6u; ++i) {
+    float weight = octave_weight(cells, footprint);
+    if (weight > 0.0) {
+      vec3 noise = ground_noise(p, cells, 3u + i) * weight;
+      detail.shade += grain * noise.x;
+      detail.litter += (i < 3u ? 0.9 : 0.35) * noise.x;
+      detail.slope += height * noise.yz;
+      if (i < 2u) detail.warp += noise.yz / cells * 0.2;
+    }
+    cells *= 2.0;
+    height *= 0.5;
+    grain *= 1.06;
+  }
+  detail.shade = max(detail.shade, 0.35);
+  detail.litter = smoothstep(0.0, 0.8, detail.litter);
+  return detail;
+}
+
+// Linear colour of the ground. Bright, colourless ground (snow) and blue ground (water) keep the base map's colour.
+vec3 ground_albedo(sampler2D base_map, vec2 uv, GroundDetail detail) {
+  vec3 base = texture(base_map, uv + detail.warp / vec2(textureSize(base_map, 0))).rgb;
+  float brightest = max(base.r, max(base.g, base.b));
+  float darkest = min(base.r, min(base.g, base.b));
+  float snow = smoothstep(0.30, 0.60, darkest);
+  float water = smoothstep(0.0, 0.25, (base.b - max(base.r, base.g)) / max(brightest, 1.0e-3));
+  float earthy = (1.0 - snow) * (1.0 - water);
+  float luminance = dot(base, vec3(0.2126, 0.7152, 0.0722));
+  vec3 earth = luminance * vec3(1.24, 0.95, 0.62);
+  vec3 color = mix(base, earth, 0.55 * detail.litter * earthy);
+  return color * mix(1.0, detail.shade, 0.25 + 0.75 * earthy);
+}
+
+// The same for programs that need no more than the colour.
+vec3 ground_albedo(sampler2D base_map, vec2 uv, vec3 relative_position, vec3 normal) {
+  return ground_albedo(base_map, uv, ground_detail(relative_position, normal));
+}
