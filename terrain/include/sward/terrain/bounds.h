@@ -2,22 +2,30 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <sward/terrain/height_field.h>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 namespace sward {
 
 /// Nested wedgie bounds (Duchaineau et al. 1997, section 4): for every diamond whose centre is a data sample,
 ///   e(diamond) = max over child diamonds of e + |z(centre) - (z(left) + z(right)) / 2|,
-/// so that the finest data lies within +-e of either of its triangles. Stored once a diamond, by its centre, as a
+/// so that the finest surface lies within +-e of either of its triangles. Stored once a diamond, by its centre, as a
 /// 16-bit float (5 bit exponent, 11 bit mantissa) rounded up: it neither saturates below 2^19 m nor loses more than
-/// 1/2048. The relief's analytic bound is added on reading. Samples in holes and in the padding add nothing.
+/// 1/2048 (2^-23 m below a quarter of a millimetre). The relief's analytic bound is in it. Diamonds below which there
+/// are only holes and padding count 0. A diamond's bound is never below that of the diamonds that depend on it.
 class Bounds {
  public:
   /// Bottom-up, in parallel over `threads` threads (0: all cores); the result does not depend on their number.
   /// Cost: about 10 ns a sample a core. The field must outlive the bounds.
   static Bounds create(const HeightField& field, int threads = 0, const Progress& progress = {});
+
+  /// Writes the bounds to a file that load() reads: to a temporary beside it, renamed when complete.
+  Expected<void> save(const std::string& path) const;
+  /// Reads bounds that were saved for the same field. Fails, naming the file and what to do, when it is missing,
+  /// truncated, damaged, of another version or of another field.
+  static Expected<Bounds> load(const std::string& path, const HeightField& field);
 
   /// Bound in metres of the triangles of `level` whose base edge's middle is `centre`; 0 at and below max_level().
   float bound(LatticePoint centre, int level) const;
@@ -31,8 +39,16 @@ class Bounds {
   static float decode(uint16_t stored);
 
  private:
+  friend class BoundsBuilder;
+  void adopt_layout(const HeightField& field);
+  // Stored value of a diamond below which no sample is valid.
+  static constexpr uint16_t k_nothing = 0xffff;
+
   const HeightField* field_ = nullptr;
-  int stride_ = 0;                // samples a row, padding included
+  int stride_ = 0;     // samples a row, padding included
+  int step_bits_ = 0;  // log2 of lattice units between samples
+  int data_level_ = 0;
+  int max_level_ = 0;
   std::vector<uint16_t> stored_;  // by sample, padding included
 };
 

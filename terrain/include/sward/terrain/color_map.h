@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/terrain/error.h>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
-#include <sward/terrain/error.h>
 #include <vector>
 
 namespace sward {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/terrain/error.h>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
-#include <sward/terrain/error.h>
 #include <variant>
 #include <vector>
 
@@ -59,7 +59,8 @@ class HeightField {
   /// Takes rows of `columns` samples, north first. `holes` is empty or has one entry a sample, not 0 for no data:
   /// those samples are filled smoothly from their surroundings and marked. Float samples that are NaN or infinite are
   /// holes too. Fails on sizes, spacings or counts out of range and when every sample is a hole.
-  static Expected<HeightField> create(const HeightFieldDesc& desc, Samples samples, std::span<const uint8_t> holes = {});
+  static Expected<HeightField> create(const HeightFieldDesc& desc, Samples samples,
+                                      std::span<const uint8_t> holes = {});
 
   const HeightFieldDesc& desc() const { return desc_; }
   /// log2 of the cells along a root square's side, >= 1.
@@ -72,6 +73,8 @@ class HeightField {
   int max_level() const { return max_level_; }
   /// Lattice units between samples.
   int sample_step() const { return k_root_side >> root_bits_; }
+  /// The samples as given (row by row, north first), holes filled.
+  const Samples& samples() const { return samples_; }
   /// Number of samples that were holes.
   int64_t hole_count() const { return hole_count_; }
   /// Lowest and highest sample, metres, world (origin.z included); relief reaches up to relief_amplitude() beyond.
@@ -101,10 +104,27 @@ class HeightField {
   /// Gradient of the relief alone at a lattice point (dz/dx, dz/dy), for shading.
   glm::dvec2 relief_gradient(LatticePoint p) const;
   /// Upper bound of |z(m) - (z(l)+z(r))/2| that the relief adds at splits of triangles of `level` and below, summed
-  /// over all levels from `level` to max_level(); 0 at max_level(). Analytic; see height_field.cpp.
+  /// over all levels from `level` to max_level(); 0 at max_level(). Analytic; see relief.cpp.
   double relief_bound(int level) const;
+  /// The same for one diamond, by the lattice point that its split creates and its level (>= data_level()): scaled by
+  /// the strength of the relief around it, so that no descendant's bound is above its ancestor's. 0 in the padding and
+  /// in holes.
+  double relief_bound(LatticePoint centre, int level) const;
+  /// Local strength of the relief by sample, 255: full; 0 in holes. Empty without relief.
+  std::span<const uint8_t> relief_shares() const { return relief_shares_; }
+
+  /// Hash of all that bounds depend on: sizes, spacing, scale, samples, holes, relief. Cost: 1 ns a sample.
+  uint64_t fingerprint() const;
 
  private:
+  glm::dvec2 lattice_from_world(glm::dvec2 xy) const;
+  double raw(int column, int row) const;
+  double linear_height(LatticePoint p) const;
+  double relief_share(LatticePoint p) const;
+  Expected<void> adopt(Samples samples, std::span<const uint8_t> holes);
+  void measure_range();
+  void set_up_relief();
+
   HeightFieldDesc desc_;
   Samples samples_;
   std::vector<uint64_t> holes_;  // one bit a sample; empty when there is none
@@ -114,7 +134,10 @@ class HeightField {
   int64_t hole_count_ = 0;
   glm::dvec2 height_range_{0};
   double relief_amplitude_ = 0;
-  std::vector<double> relief_bound_;  // by level
+  int octaves_ = 0;                     // of relief; 0: none
+  double first_amplitude_ = 0;          // metres, of octave 0; halves with each octave
+  std::vector<uint8_t> relief_shares_;  // by sample; empty without relief
+  std::vector<double> relief_bound_;    // by level, from data_level() to max_level()
 };
 
 }  // namespace sward

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/terrain/error.h>
 #include <array>
 #include <glm/glm.hpp>
-#include <sward/terrain/error.h>
 
 namespace sward {
 

@@ -1,0 +1,234 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+// Nested wedgies (Duchaineau et al., "ROAMing Terrain: Real-time Optimally Adapting Meshes", 1997, section 4), kept by
+// diamond instead of by triangle, over one grid for all root squares: diamonds on a border between two root squares
+// have their triangles in both. Level by level from the data up; diamonds of one level do not depend on each other.
+//
+// Level 2 (n - i) + 1, i >= 1: base of 2 h = 2^i samples along an axis, centre at (odd h, even h) or (even h, odd h);
+// dependent diamonds at (+-h/2, +-h/2). Level 2 (n - i): base along a diagonal of a square of side 2 h, centre at
+// (odd h, odd h), dependent diamonds at (+-h, 0) and (0, +-h). Diamonds of the data's own level have their centres
+// between samples; they are not stored, the relief's bound around takes their place.
+//
+// Validity where data is missing. A valid sample in a triangle is off that triangle's plane by its distance from a
+// child's plane plus at most what the split moved, whether or not the split's own sample is valid. So a hole or a
+// padded sample adds nothing only where no valid sample (nor relief) lies below its diamond.
+
+#include <sward/terrain/bounds.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bounds_parallel.h"
+#include "relief.h"
+
+namespace sward {
+
+namespace {
+
+constexpr int k_mantissa_bits = 11;
+constexpr int k_lowest_exponent = -12;
+constexpr uint16_t k_largest = 0xfffe;
+// Passes over wider spacings take no time worth telling.
+constexpr int k_coarsest_reported = 8;
+// Rounding in computing a deviation, relative to it.
+constexpr double k_slack = 1.0 + 1e-12;
+
+uint16_t encode_double_up(double metres) {
+  // Below the lowest exponent numbers are spaced evenly, as in IEEE formats.
+  if (!(metres > 0.0)) return 0;
+  int exponent = 0;
+  std::frexp(metres, &exponent);
+  exponent = std::max(exponent - 1, k_lowest_exponent);
+  auto mantissa = int64_t(std::ceil(std::ldexp(metres, k_mantissa_bits - exponent)));
+  if (mantissa == 2 << k_mantissa_bits) {
+    mantissa /= 2;
+    ++exponent;
+  }
+  const int64_t code = (int64_t(exponent - k_lowest_exponent) << k_mantissa_bits) + mantissa;
+  return uint16_t(std::min<int64_t>(code, k_largest));
+}
+
+float float_up(double value) {
+  const float rounded = float(value);
+  return double(rounded) < value ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : rounded;
+}
+
+}  // namespace
+
+// What the levels' passes share.
+class BoundsBuilder {
+ public:
+  BoundsBuilder(const HeightField& field, Bounds& bounds)
+      : field_(field),
+        stored_(bounds.stored_.data()),
+        size_(field.root_squares() * (1 << field.root_bits()) + 1),
+        data_(field.desc().columns, field.desc().rows),
+        scale_(std::abs(field.desc().scale)),
+        relief_per_share_(field.relief_bound(field.data_level()) / 255.0) {
+    if (const auto* words = std::get_if<std::vector<uint16_t>>(&field.samples())) words_ = words->data();
+    if (const auto* floats = std::get_if<std::vector<float>>(&field.samples())) floats_ = floats->data();
+  }
+
+  glm::ivec2 size() const { return size_; }
+
+  // Level 2 (n - i) + 1, rows of multiples of h.
+  void side_row(int row, int h) const {
+    const bool along_row = row / h % 2 == 0;
+    if (h == 1) strongest_row(row);
+    const std::vector<uint8_t>& strongest = strongest_in_row();
+    for (int column = along_row ? h : 0; column < size_.x; column += 2 * h) {
+      const glm::ivec2 half = along_row ? glm::ivec2(h, 0) : glm::ivec2(0, h);
+      const glm::ivec2 centre(column, row);
+      Below below;
+      if (h == 1) {
+        below = relief_below(centre, strongest);
+      } else {
+        const int q = h / 2;
+        for (const glm::ivec2 offset : {glm::ivec2(-q, -q), {q, -q}, {-q, q}, {q, q}}) add(centre + offset, below);
+      }
+      store(centre, half, below);
+    }
+  }
+
+  // Level 2 (n - i), rows of odd multiples of h. Root squares are cut from south-west to north-east, smaller ones so
+  // that the base joins corners whose indices are both even or both odd.
+  void square_row(int row, int h, bool root) const {
+    for (int column = h; column < size_.x; column += 2 * h) {
+      const bool falls_east = !root && (column / (2 * h) + row / (2 * h)) % 2 == 0;
+      const glm::ivec2 centre(column, row);
+      Below below;
+      for (const glm::ivec2 offset : {glm::ivec2(-h, 0), {h, 0}, {0, -h}, {0, h}}) add(centre + offset, below);
+      store(centre, falls_east ? glm::ivec2(h, h) : glm::ivec2(h, -h), below);
+    }
+  }
+
+ private:
+  // What depends on a diamond.
+  struct Below {
+    double bound = 0;
+    bool any = false;  // A valid sample or relief.
+  };
+
+  // Strongest relief within two samples up and down, by column; filled by strongest_row().
+  static std::vector<uint8_t>& strongest_in_row() {
+    static thread_local std::vector<uint8_t> strongest;
+    return strongest;
+  }
+
+  void strongest_row(int row) const {
+    std::vector<uint8_t>& strongest = strongest_in_row();
+    strongest.assign(size_t(data_.x), 0);
+    if (field_.relief_shares().empty()) return;
+    for (int y = std::max(row - 2, 0); y <= std::min(row + 2, data_.y - 1); ++y) {
+      const uint8_t* shares = field_.relief_shares().data() + size_t(y) * size_t(data_.x);
+      for (size_t x = 0; x < strongest.size(); ++x) strongest[x] = std::max(strongest[x], shares[x]);
+    }
+  }
+
+  // The window of relief_bound(centre, level) for the four diamonds of the data's level, taken together.
+  Below relief_below(glm::ivec2 centre, const std::vector<uint8_t>& strongest) const {
+    uint8_t share = 0;
+    const int last = std::min(centre.x + 2, data_.x - 1);
+    for (int x = std::max(centre.x - 2, 0); x <= last; ++x) share = std::max(share, strongest[size_t(x)]);
+    return {share * relief_per_share_, share > 0};
+  }
+
+  void add(glm::ivec2 sample, Below& below) const {
+    if (sample.x < 0 || sample.y < 0 || sample.x >= size_.x || sample.y >= size_.y) return;
+    const uint16_t code = stored_[index(sample)];
+    if (code == Bounds::k_nothing) return;
+    below.bound = std::max(below.bound, double(Bounds::decode(code)));
+    below.any = true;
+  }
+
+  void store(glm::ivec2 centre, glm::ivec2 half, const Below& below) const {
+    if (!below.any && !valid(centre)) {
+      stored_[index(centre)] = Bounds::k_nothing;
+      return;
+    }
+    const double bend = std::abs(raw(centre) - 0.5 * (raw(centre - half) + raw(centre + half)));
+    stored_[index(centre)] = encode_double_up((below.bound + scale_ * bend) * k_slack);
+  }
+
+  size_t index(glm::ivec2 sample) const { return size_t(sample.y) * size_t(size_.x) + size_t(sample.x); }
+
+  bool valid(glm::ivec2 sample) const {
+    if (sample.x >= data_.x || sample.y >= data_.y) return false;
+    return field_.hole_count() == 0 || !field_.is_hole(sample.x, sample.y);
+  }
+
+  double raw(glm::ivec2 sample) const {
+    const size_t column = size_t(std::min(sample.x, data_.x - 1)), row = size_t(std::min(sample.y, data_.y - 1));
+    const size_t at = row * size_t(data_.x) + column;
+    return words_ != nullptr ? double(words_[at]) : double(floats_[at]);
+  }
+
+  const HeightField& field_;
+  uint16_t* stored_;
+  glm::ivec2 size_;  // Samples, padding included.
+  glm::ivec2 data_;  // Without.
+  double scale_;
+  double relief_per_share_;
+  const uint16_t* words_ = nullptr;
+  const float* floats_ = nullptr;
+};
+
+void Bounds::adopt_layout(const HeightField& field) {
+  field_ = &field;
+  data_level_ = field.data_level();
+  max_level_ = field.max_level();
+  step_bits_ = k_root_bits - field.root_bits();
+  const glm::ivec2 size = field.root_squares() * (1 << field.root_bits()) + 1;
+  stride_ = size.x;
+  stored_.assign(size_t(size.x) * size_t(size.y), k_nothing);
+}
+
+Bounds Bounds::create(const HeightField& field, int threads, const Progress& progress) {
+  Bounds bounds;
+  bounds.adopt_layout(field);
+  const BoundsBuilder builder(field, bounds);
+  const glm::ivec2 size = builder.size();
+  // A pass over spacing h visits 3 / (4 h^2) of the samples.
+  float done = 0.0f;
+  for (int i = 1; i <= field.root_bits(); ++i) {
+    const int h = 1 << (i - 1);
+    const float visited = 1.0f / (float(h) * float(h));
+    const auto report = [&](float from, float share) {
+      return progress && h <= k_coarsest_reported
+                 ? Progress([&, from, share](float part) { progress(from + share * part); })
+                 : Progress();
+    };
+    const int64_t cost = size.x / h;
+    parallel_rows({(size.y + h - 1) / h, cost, threads}, report(done, 0.5f * visited),
+                  [&](int k) { builder.side_row(k * h, h); });
+    done += 0.5f * visited;
+    const bool root = i == field.root_bits();
+    parallel_rows({size.y / (2 * h), cost, threads}, report(done, 0.25f * visited),
+                  [&](int k) { builder.square_row((2 * k + 1) * h, h, root); });
+    done += 0.25f * visited;
+  }
+  if (progress) progress(1.0f);
+  return bounds;
+}
+
+float Bounds::bound(LatticePoint centre, int level) const {
+  if (level >= max_level_) return 0.0f;
+  if (level >= data_level_) return float_up(field_->relief_bound(centre, level));
+  const uint16_t code = stored_[size_t(centre.y >> step_bits_) * size_t(stride_) + size_t(centre.x >> step_bits_)];
+  return code == k_nothing ? 0.0f : decode(code);
+}
+
+uint16_t Bounds::encode_up(float metres) {
+  return encode_double_up(double(metres));
+}
+
+float Bounds::decode(uint16_t stored) {
+  const int field = stored >> k_mantissa_bits;
+  const int mantissa = stored & ((1 << k_mantissa_bits) - 1);
+  if (field == 0) return std::ldexp(float(mantissa), k_lowest_exponent - k_mantissa_bits);
+  return std::ldexp(float(mantissa + (1 << k_mantissa_bits)), field - 1 + k_lowest_exponent - k_mantissa_bits);
+}
+
+}  // namespace sward
