@@ -1,0 +1,113 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sward/terrain/roam_mesh.h>
+#include <chrono>
+#include <optional>
+#include <vector>
+
+#include "terrain/roam_projection.h"
+#include "terrain/roam_queue.h"
+#include "terrain/roam_tree.h"
+
+namespace sward::roam {
+
+/// The most leaves a mesh may have, visible or not.
+uint32_t leaf_limit(const RoamOptions& options, uint32_t roots);
+
+/// Fails when an option is out of range or the budget is below the number of drawable roots.
+Expected<void> check_options(const RoamOptions& options, uint32_t drawable_roots);
+
+/// The mesh behind RoamMesh: a tree, what the current view makes of its nodes, the two queues, the list of drawn
+/// leaves. split() and merge() keep all of it consistent; update() adapts to a view.
+class RoamEngine {
+ public:
+  RoamEngine(const Bounds& bounds, const RoamOptions& options);
+
+  Expected<RoamStats> update(const View& view);
+  Expected<void> set_options(const RoamOptions& options);
+  const RoamOptions& options() const { return options_; }
+
+  /// Splits a leaf after the leaves that it forces; the number of diamonds split. Does not look at the budget.
+  uint32_t split(uint32_t leaf);
+  /// Merges the diamond of a mergeable node.
+  void merge(uint32_t node);
+  /// Change of the number of visible leaves that split() would make.
+  int split_cost(const Chain& chain) const;
+  /// Visible leaves that merge() would take away; negative when it brings more into sight than it removes.
+  int merge_gain(uint32_t node) const;
+
+  /// Largest priority of a visible leaf.
+  float bound_px() const;
+  Expected<void> validate() const;
+
+  const RoamTree& tree() const { return tree_; }
+  /// The view of the last update; nothing before the first.
+  const std::optional<View>& view() const { return view_; }
+  bool is_visible(uint32_t node) const { return !(cull_[node] & k_out); }
+  float priority(uint32_t node) const { return priority_[node]; }
+  uint32_t visible_count() const { return uint32_t(drawn_.size()); }
+  std::span<const uint32_t> indices() const { return indices_; }
+
+ private:
+  friend class Validator;
+  struct Ghost;
+
+  // View and culling.
+  void follow_eye(glm::dvec3 eye);
+  void reassess_all();
+  void reassess(uint32_t node);
+  const Lanes& lanes(uint32_t vertex) const;
+  Assessment assess(uint32_t node) const;
+  void adopt(uint32_t node);
+  void grow_arrays();
+
+  // Membership in queues and in the list of drawn leaves.
+  void refresh_leaf(uint32_t node);
+  void forget_leaf(uint32_t node);
+  float diamond_key(uint32_t node) const;
+  void refresh_diamond(uint32_t node);
+  void forget_diamond(uint32_t node);
+  void draw(uint32_t node);
+  void undraw(uint32_t node);
+
+  // Adapting.
+  void split_one(uint32_t node);
+  bool converge();
+  bool make_room(uint32_t node);
+  bool fits(const Chain& chain) const;
+  void shrink_to_budget();
+  void trim_below_target();
+  bool out_of_time();
+  Ghost ghost(uint32_t node) const;
+  Ghost ghost_child(const Ghost& of, int turn, const Lanes& middle) const;
+
+  RoamTree tree_;
+  RoamOptions options_;
+  std::optional<View> view_;
+  Projection projection_;
+  bool settled_ = false;  // the mesh is what view_ and options_ ask for
+  RoamStats stats_;
+
+  std::vector<CullFlags> cull_;
+  std::vector<float> priority_;  // of the node's own triangle; -1 when it is out
+  QueueLinks links_;
+  BucketQueue split_queue_;      // visible leaves
+  BucketQueue merge_queue_;      // mergeable diamonds, by their lower node
+  std::vector<uint32_t> drawn_;  // visible leaves, unordered
+  std::vector<uint32_t> indices_;
+  std::vector<uint32_t> draw_slot_;  // by node: place in drawn_
+
+  // By vertex; computed when first needed in a view.
+  mutable std::vector<Lanes> lanes_;
+  mutable std::vector<uint32_t> lanes_view_;
+  uint32_t view_number_ = 0;
+
+  std::chrono::steady_clock::time_point deadline_;
+  uint32_t time_checks_ = 0;
+  uint64_t operations_ = 0;
+  uint64_t operation_limit_ = 0;
+};
+
+}  // namespace sward::roam

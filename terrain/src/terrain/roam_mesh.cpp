@@ -1,0 +1,90 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+#include <sward/terrain/roam_mesh.h>
+
+#include "terrain/fixed_level.h"
+#include "terrain/roam_engine.h"
+
+namespace sward {
+
+struct RoamMesh::Impl {
+  roam::RoamEngine engine;
+};
+
+Expected<RoamMesh> RoamMesh::create(const Bounds& bounds, const RoamOptions& options) {
+  auto impl = std::make_unique<Impl>(Impl{roam::RoamEngine(bounds, options)});
+  if (auto checked = impl->engine.set_options(options); !checked) return tl::unexpected<Error>(checked.error());
+  return RoamMesh(std::move(impl));
+}
+
+RoamMesh::RoamMesh(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+RoamMesh::RoamMesh(RoamMesh&&) noexcept = default;
+RoamMesh& RoamMesh::operator=(RoamMesh&&) noexcept = default;
+RoamMesh::~RoamMesh() = default;
+
+Expected<RoamStats> RoamMesh::update(const View& view) {
+  return impl_->engine.update(view);
+}
+
+Expected<void> RoamMesh::set_options(const RoamOptions& options) {
+  return impl_->engine.set_options(options);
+}
+
+const RoamOptions& RoamMesh::options() const {
+  return impl_->engine.options();
+}
+
+float RoamMesh::bound_px() const {
+  return impl_->engine.bound_px();
+}
+
+glm::dvec3 RoamMesh::origin() const {
+  return impl_->engine.tree().vertices.origin;
+}
+
+std::span<const RoamVertex> RoamMesh::vertices() const {
+  return impl_->engine.tree().vertices.gpu;
+}
+
+std::span<const uint32_t> RoamMesh::changed_vertices() const {
+  return impl_->engine.tree().vertices.changed;
+}
+
+bool RoamMesh::all_vertices_changed() const {
+  return impl_->engine.tree().vertices.all_changed;
+}
+
+std::span<const uint32_t> RoamMesh::visible_indices() const {
+  return impl_->engine.indices();
+}
+
+std::vector<uint32_t> RoamMesh::all_indices() const {
+  const roam::RoamTree& tree = impl_->engine.tree();
+  std::vector<uint32_t> indices;
+  indices.reserve(3 * size_t(tree.leaf_count()));
+  for (uint32_t node = 0; node < tree.size(); ++node) {
+    if (!tree.is_leaf(node) || tree.cover[node] == roam::Cover::padding) continue;
+    const roam::Corners& c = tree.corner[node];
+    indices.insert(indices.end(), {c.apex, c.left, c.right});
+  }
+  return indices;
+}
+
+glm::dvec3 RoamMesh::vertex_world(uint32_t slot) const {
+  const auto& world = impl_->engine.tree().vertices.world;
+  SWARD_ASSERT(slot < world.size(), "no such vertex slot");
+  return world[slot];
+}
+
+void RoamMesh::fixed_level_triangles(const FixedLevelOptions& options, FixedTriangles& out) const {
+  SWARD_ASSERT(options.level >= 0 && options.level <= k_max_level, "level must be in [0, k_max_level]");
+  out.clear();
+  if (const auto& view = impl_->engine.view()) roam::collect_fixed_level(impl_->engine.tree(), *view, options, out);
+}
+
+Expected<void> RoamMesh::validate() const {
+  return impl_->engine.validate();
+}
+
+}  // namespace sward

@@ -1,0 +1,42 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#include "terrain/roam_queue.h"
+
+#include <sward/terrain/roam_mesh.h>
+
+namespace sward::roam {
+
+uint32_t BucketQueue::highest(const QueueLinks& links) const {
+  for (int s = int(summary_.size()) - 1; s >= 0; --s) {
+    if (summary_[s] == 0) continue;
+    const int w = s * 64 + 63 - std::countl_zero(summary_[s]);
+    const int bucket = w * 64 + 63 - std::countl_zero(words_[w]);
+    if (bucket == 0) return k_none;
+    uint32_t best = heads_[bucket];
+    for (uint32_t node = best; node != k_none; node = links.next[node]) {
+      if (links.key[node] > links.key[best]) best = node;
+      if (links.key[best] >= RoamMesh::k_artificial_max) break;
+    }
+    return best;
+  }
+  return k_none;
+}
+
+uint32_t BucketQueue::lowest(const QueueLinks& links) const {
+  for (size_t s = 0; s < summary_.size(); ++s) {
+    uint64_t summary = summary_[s];
+    while (summary != 0) {
+      const int w = int(s) * 64 + std::countr_zero(summary);
+      summary &= summary - 1;
+      const uint64_t word = w == 0 ? words_[0] & ~uint64_t(1) : words_[w];
+      if (word == 0) continue;
+      uint32_t best = heads_[w * 64 + std::countr_zero(word)];
+      for (uint32_t node = best; node != k_none && links.key[best] > 0; node = links.next[node])
+        if (links.key[node] < links.key[best]) best = node;
+      return best;
+    }
+  }
+  return k_none;
+}
+
+}  // namespace sward::roam

@@ -1,0 +1,130 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sward/terrain/bounds.h>
+#include <sward/terrain/fixed_triangles.h>
+#include <sward/terrain/roam_mesh.h>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "terrain/roam_queue.h"
+
+namespace sward::roam {
+
+/// Where a triangle stands against the rectangle of data.
+enum class Cover : uint8_t { inside, straddling, padding };
+
+/// `parent` spares the test where it decides.
+Cover cover_of(const HeightField& field, const TriangleCorners& corners, Cover parent);
+
+/// The lattice point that a split of the triangle creates.
+inline LatticePoint centre_of(const TriangleCorners& c) {
+  return (c.left + c.right) / 2;
+}
+inline TriangleCorners child_corners(const TriangleCorners& c, int turn) {
+  const LatticePoint m = centre_of(c);
+  return turn == 0 ? TriangleCorners{m, c.apex, c.left} : TriangleCorners{m, c.right, c.apex};
+}
+
+/// Vertices in stable slots. Every vertex but those of the root squares' corners is the centre of one split diamond.
+class VertexPool {
+ public:
+  uint32_t add(const HeightField& field, LatticePoint point);
+  void free(uint32_t slot);
+  /// Forgets what was written so far.
+  void begin_changes();
+  /// Moves the origin and rewrites every living slot.
+  void rebase(glm::dvec3 origin);
+
+  std::vector<LatticePoint> lattice;
+  std::vector<glm::dvec3> world;
+  std::vector<RoamVertex> gpu;
+  std::vector<uint8_t> alive;
+  std::vector<uint32_t> changed;  // slots written since begin_changes()
+  glm::dvec3 origin{0};
+  bool all_changed = false;
+
+ private:
+  void mark_changed(uint32_t slot);
+
+  std::vector<uint32_t> free_;
+  std::vector<uint32_t> change_;  // the number of the change period in which a slot was written last
+  uint32_t period_ = 1;
+};
+
+/// Vertex slots of a node; counter-clockwise seen from above.
+struct Corners {
+  uint32_t apex, left, right;
+};
+
+/// Leaves across the base, the edge apex-left and the edge apex-right. A split node's base is the other half of its
+/// diamond (k_none at the outer border); its other two are stale until it is merged.
+struct Neighbours {
+  uint32_t base, left, right;
+};
+
+/// The forced splits that one split needs, in the order found: from the leaf itself to the coarsest.
+struct Chain {
+  std::array<uint32_t, k_max_level + 1> node;
+  int length = 0;
+};
+
+/// Topology of the bintree: nodes in pairs (siblings are i and i ^ 1), as structure of arrays. Node 2 s + r is root r
+/// of root square s. Knows nothing of views.
+class RoamTree {
+ public:
+  explicit RoamTree(const Bounds& bounds);
+
+  const HeightField& field() const { return *field_; }
+  const Bounds& bounds() const { return *bounds_; }
+  uint32_t root_count() const { return root_count_; }
+  size_t size() const { return id.size(); }
+  uint32_t leaf_count() const { return leaf_count_; }
+
+  bool is_alive(uint32_t node) const { return child[node] != k_dead; }
+  bool is_leaf(uint32_t node) const { return child[node] == k_none; }
+  bool is_split(uint32_t node) const { return child[node] < k_dead; }
+  TriangleCorners corners(uint32_t node) const;
+
+  /// Leaves that have to be split so that `leaf` can be; split_diamond() them from the last to the first.
+  Chain forced_chain(uint32_t leaf) const;
+  /// Splits a leaf and the leaf across its base, which has the same level or does not exist.
+  void split_diamond(uint32_t node);
+  /// True when the node is split and no child of its diamond is.
+  bool mergeable(uint32_t node) const;
+  /// Undoes split_diamond() for a mergeable node.
+  void merge_diamond(uint32_t node);
+  /// The half of the node's diamond that stands for it: the lower index.
+  uint32_t diamond_of(uint32_t node) const { return std::min(node, neighbour[node].base); }
+
+  std::vector<TriangleId> id;
+  std::vector<Corners> corner;
+  std::vector<Neighbours> neighbour;
+  std::vector<uint32_t> parent;
+  std::vector<uint32_t> child;  // first of the two; k_none: leaf; k_dead: unused
+  std::vector<float> bound;
+  std::vector<Cover> cover;
+  VertexPool vertices;
+
+ private:
+  static constexpr uint32_t k_dead = 0xfffffffeu;
+
+  uint32_t allocate_pair();
+  void set_node(uint32_t node, TriangleId node_id, Corners slots, uint32_t parent_node, Cover parent_cover);
+  void add_roots();
+  void link_roots(uint32_t square);
+  void make_children(uint32_t node, uint32_t middle);
+  void replace_neighbour(uint32_t node, uint32_t old_node, uint32_t new_node);
+  void join_as_leaf(uint32_t node);
+
+  const Bounds* bounds_;
+  const HeightField* field_;
+  uint32_t root_count_ = 0;
+  uint32_t leaf_count_ = 0;
+  std::vector<uint32_t> free_pairs_;
+};
+
+}  // namespace sward::roam

@@ -1,0 +1,161 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+// The structural check of a mesh: everything that the other files keep up step by step is derived again from ids.
+#include <string>
+
+#include "terrain/roam_engine.h"
+
+namespace sward::roam {
+
+class Validator {
+ public:
+  explicit Validator(const RoamEngine& engine) : e_(engine), t_(engine.tree_) {}
+
+  Expected<void> run() {
+    std::vector<uint32_t> stack;
+    for (uint32_t root = 0; root < t_.root_count(); ++root) stack.push_back(root);
+    while (!stack.empty()) {
+      const uint32_t node = stack.back();
+      stack.pop_back();
+      ++nodes_;
+      check_identity(node);
+      check_view(node);
+      if (t_.is_leaf(node)) {
+        check_leaf(node);
+      } else {
+        check_split(node);
+        stack.push_back(t_.child[node]);
+        stack.push_back(t_.child[node] + 1);
+      }
+      if (!fault_.empty()) return fail(fault_);
+    }
+    check_counts();
+    if (!fault_.empty()) return fail(fault_);
+    return {};
+  }
+
+ private:
+  void require(bool holds, uint32_t node, const char* what) {
+    if (!holds && fault_.empty()) fault_ = "ROAM mesh: node " + std::to_string(node) + ": " + what;
+  }
+
+  void check_identity(uint32_t node) {
+    const TriangleCorners expected = corners_of(t_.id[node]), actual = t_.corners(node);
+    require(expected.apex == actual.apex && expected.left == actual.left && expected.right == actual.right, node,
+            "corners differ from those of its id");
+    for (const uint32_t slot : {t_.corner[node].apex, t_.corner[node].left, t_.corner[node].right}) {
+      require(t_.vertices.alive[slot], node, "uses a dead vertex");
+      const glm::dvec3 world(t_.field().world_xy(t_.vertices.lattice[slot]),
+                             t_.field().height(t_.vertices.lattice[slot]));
+      require(world == t_.vertices.world[slot], node, "has a vertex off the height field");
+    }
+    const uint32_t parent = t_.parent[node];
+    if (parent == k_none) {
+      require(node < t_.root_count(), node, "has no parent and is no root");
+      return;
+    }
+    require(t_.is_split(parent) && (t_.child[parent] | 1) == (node | 1), node, "is unknown to its parent");
+    require(t_.id[node] == t_.id[parent].child(int(node & 1)), node, "has an id that does not follow its parent's");
+  }
+
+  void check_view(uint32_t node) {
+    const Assessment now = e_.assess(node);
+    require(now.cull == e_.cull_[node], node, "has flags of another view");
+    require(now.priority == e_.priority_[node], node, "has the priority of another view");
+  }
+
+  void check_leaf(uint32_t node) {
+    ++leaves_;
+    const bool visible = e_.is_visible(node);
+    visible_ += visible;
+    require(e_.links_.queued(node) == visible, node, visible ? "is visible, not queued" : "is queued, not visible");
+    if (visible) {
+      check_queued(node, e_.priority_[node]);
+      const uint32_t slot = e_.draw_slot_[node];
+      require(slot < e_.drawn_.size() && e_.drawn_[slot] == node, node, "is visible and not drawn");
+      const Corners& c = t_.corner[node];
+      require(slot < e_.drawn_.size() && e_.indices_[3 * slot] == c.apex && e_.indices_[3 * slot + 1] == c.left &&
+                  e_.indices_[3 * slot + 2] == c.right,
+              node, "is drawn with other corners");
+    }
+    const Neighbours& n = t_.neighbour[node];
+    const Corners& c = t_.corner[node];
+    check_edge(node, n.base, c.left, c.right);
+    check_edge(node, n.left, c.apex, c.left);
+    check_edge(node, n.right, c.right, c.apex);
+  }
+
+  // The neighbour must be a leaf that has the same edge, run through the other way, and knows this node across it.
+  void check_edge(uint32_t node, uint32_t across, uint32_t from, uint32_t to) {
+    if (across == k_none) {
+      require(on_border(from, to), node, "has no neighbour across an inner edge");
+      return;
+    }
+    if (!t_.is_alive(across) || !t_.is_leaf(across)) return require(false, node, "has a neighbour that is no leaf");
+    const Corners& c = t_.corner[across];
+    const Neighbours& n = t_.neighbour[across];
+    const bool over_base = n.base == node && c.left == to && c.right == from;
+    const bool over_left = n.left == node && c.apex == to && c.left == from;
+    const bool over_right = n.right == node && c.right == to && c.apex == from;
+    require(over_base || over_left || over_right, node, "does not share its edge with its neighbour");
+  }
+
+  bool on_border(uint32_t a, uint32_t b) const {
+    const LatticePoint p = t_.vertices.lattice[a], q = t_.vertices.lattice[b];
+    const LatticePoint far = t_.field().root_squares() * k_root_side;
+    return (p.x == q.x && (p.x == 0 || p.x == far.x)) || (p.y == q.y && (p.y == 0 || p.y == far.y));
+  }
+
+  void check_split(uint32_t node) {
+    const uint32_t base = t_.neighbour[node].base;
+    const uint32_t middle = t_.corner[t_.child[node]].apex;
+    require(middle == t_.corner[t_.child[node] + 1].apex, node, "has children with different apexes");
+    if (base == k_none) {
+      require(on_border(t_.corner[node].left, t_.corner[node].right), node, "is half a diamond at an inner edge");
+    } else if (!t_.is_split(base) || t_.neighbour[base].base != node) {
+      return require(false, node, "is split and the other half of its diamond is not");
+    } else {
+      require(t_.corner[t_.child[base]].apex == middle, node, "has another centre than the other half of its diamond");
+    }
+    const bool stands_for_diamond = t_.diamond_of(node) == node;
+    diamonds_ += stands_for_diamond;
+    const bool expected = stands_for_diamond && t_.mergeable(node);
+    require(e_.links_.queued(node) == expected, node, expected ? "is mergeable, not queued" : "is queued wrongly");
+    if (expected) {
+      check_queued(node, e_.diamond_key(node));
+      ++mergeable_;
+    }
+  }
+
+  void check_queued(uint32_t node, float key) {
+    require(e_.links_.key[node] == key, node, "is queued by an old priority");
+    require(e_.links_.bucket[node] == BucketQueue::bucket_of(key), node, "is in the wrong bucket");
+  }
+
+  void check_counts() {
+    size_t alive_nodes = 0, alive_vertices = 0;
+    for (uint32_t node = 0; node < t_.size(); ++node) alive_nodes += t_.is_alive(node);
+    for (const uint8_t alive : t_.vertices.alive) alive_vertices += alive;
+    const glm::ivec2 squares = t_.field().root_squares();
+    const size_t root_vertices = size_t(squares.x + 1) * size_t(squares.y + 1);
+    require(alive_nodes == nodes_, 0, "nodes live that no root leads to");
+    require(alive_vertices == root_vertices + diamonds_, 0, "vertices live that no diamond owns");
+    require(leaves_ == t_.leaf_count(), 0, "the number of leaves is wrong");
+    require(visible_ == e_.visible_count() && e_.indices_.size() == 3 * visible_, 0, "the number drawn is wrong");
+    require(e_.split_queue_.size() == visible_, 0, "the split queue's size is wrong");
+    require(e_.merge_queue_.size() == mergeable_, 0, "the merge queue's size is wrong");
+    require(!e_.settled_ || visible_ <= e_.options_.max_triangles, 0, "the budget is exceeded");
+  }
+
+  const RoamEngine& e_;
+  const RoamTree& t_;
+  std::string fault_;
+  size_t nodes_ = 0, leaves_ = 0, visible_ = 0, diamonds_ = 0, mergeable_ = 0;
+};
+
+Expected<void> RoamEngine::validate() const {
+  return Validator(*this).run();
+}
+
+}  // namespace sward::roam
