@@ -6,8 +6,9 @@
 
 SWARD_FN uint pyramidal(uint n) { return n * (n + 1u) * (2u * n + 1u) / 6u; }
 
-// Strata along a side for the cluster of index 0, 1, ...: the smallest n with pyramidal(n) >= cluster + 1, which is
-// ceil(cbrt(3 i) - 1/2) for i = cluster + 1; integers decide, so that rounding cannot.
+// Strata along a side for the cluster of index 0, 1, ...: the smallest n with pyramidal(n) >= i, i = cluster + 1, which
+// is the root of equation 21 rounded up; integers decide, so that rounding cannot. Equation 22, ceil(cbrt(3 i) - 1/2),
+// is the same up to i = 650; from there it is one less for the first (2 n + 1) / 24 clusters of a side.
 SWARD_FN uint strata_side(uint cluster) {
   uint i = cluster + 1u;
   uint n = max(uint(pow(3.0f * float(i), 0.33333333f)), 1u);

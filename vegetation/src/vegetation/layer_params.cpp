@@ -21,10 +21,10 @@ shared::LayerParams make_layer_params(const Layer& layer, const View& view, cons
 
 namespace {
 
-/// Least score of a species: distance^-p falls with distance. Infinitely far is score 0, which every score passes but
-/// which none is: a score of 0 never competes.
+/// Least score of a species: distance^-p falls with distance; a hair less, so that rounding cannot refuse the limit
+/// itself. Infinitely far is score 0, which every score passes but which is no score: nothing competes with 0.
 float least_score(const Species& species) {
-  return float(std::pow(double(species.max_distance), -double(species.exponent)));
+  return float(0.99999 * std::pow(double(species.max_distance), -double(species.exponent)));
 }
 
 shared::SpeciesParams make_params(const Species& s) {
