@@ -59,16 +59,18 @@ struct SceneRenderer::Impl {
   GpuTimer terrain_timer, classify_timer, grow_timer;
   bool vegetation_on = true, sky_on = true;
 
-  void draw_vegetation(const View& view, GLuint framebuffer, SceneFrameStats& stats);
+  Expected<void> draw_vegetation(const View& view, GLuint framebuffer, SceneFrameStats& stats);
   void gather(bool wait, SceneFrameStats& stats);
 };
 
-void SceneRenderer::Impl::draw_vegetation(const View& view, GLuint framebuffer, SceneFrameStats& stats) {
+Expected<void> SceneRenderer::Impl::draw_vegetation(const View& view, GLuint framebuffer, SceneFrameStats& stats) {
   const auto begin = std::chrono::steady_clock::now();
   stats.fixed_triangles = cpu.cut_triangles(view);
   cpu.seed_triangles(view, terrain.colors);
-  for (size_t i = 0; i < programs.vegetation.size(); ++i)
-    programs.vegetation[i].upload(cpu.layers()[i].seeding, cpu.layers()[i].triangles);
+  for (size_t i = 0; i < programs.vegetation.size(); ++i) {
+    const auto& layer = cpu.layers()[i];
+    if (auto fits = programs.vegetation[i].upload(layer.seeding, layer.triangles, view); !fits) return fits;
+  }
   stats.cpu_seeding_ms = ms_since(begin);
 
   classify_timer.begin();
@@ -77,6 +79,7 @@ void SceneRenderer::Impl::draw_vegetation(const View& view, GLuint framebuffer, 
   grow_timer.begin();
   for (VegetationRenderer& layer : programs.vegetation) layer.draw(frame, ground);
   grow_timer.end();
+  return {};
 }
 
 void SceneRenderer::Impl::gather(bool wait, SceneFrameStats& stats) {
@@ -134,7 +137,9 @@ Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighti
   self.programs.terrain.draw(view, self.frame, self.ground);
   self.terrain_timer.end();
   if (self.sky_on) self.programs.sky.draw(self.frame);
-  if (self.vegetation_on) self.draw_vegetation(view, framebuffer, stats);
+  if (self.vegetation_on) {
+    if (auto drawn = self.draw_vegetation(view, framebuffer, stats); !drawn) return tl::unexpected(drawn.error());
+  }
   self.gather(wait_for_stats, stats);
   stats.bound_px = self.cpu.mesh().bound_px();
   return stats;

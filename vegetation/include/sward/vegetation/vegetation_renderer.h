@@ -4,20 +4,21 @@
 
 /// sward vegetation: grows plants on triangles. It does not know terrain engines, files, windows or contexts; it draws
 /// into whatever framebuffer is bound.
-#include <memory>
 #include <sward/gl/frame.h>
 #include <sward/gl/ground.h>
 #include <sward/gl/shader_library.h>
 #include <sward/vegetation/plants.h>
 #include <sward/vegetation/seeding.h>
+#include <memory>
+#include <vector>
 
 namespace sward {
 
 struct VegetationStats {
   uint32_t clusters_submitted = 0;
-  uint32_t clusters_fertile = 0;   ///< Fed back. From the GPU's queries of an earlier frame unless waited for.
-  uint64_t primitives = 0;         ///< Triangles rasterised, shadows included (same remark).
-  bool overflow = false;           ///< A feedback buffer was too small: never, tests assert it.
+  uint32_t clusters_fertile = 0;  ///< Fed back. From the GPU's queries of an earlier frame unless waited for.
+  uint64_t primitives = 0;        ///< Triangles rasterised, shadows included (same remark).
+  bool overflow = false;          ///< A feedback buffer was too small: never, tests assert it.
 };
 
 /// Draws one layer. Owns its programs, feedback buffers and uniform buffers. GL thread.
@@ -33,21 +34,26 @@ class VegetationRenderer {
 
   const Layer& layer() const;
 
-  /// One upload of a frame's seeding and surface; grows buffers when a frame needs more than any before. Binds nothing.
-  void upload(const Seeding& seeding, const FixedTriangles& triangles);
+  /// One upload of a frame's seeding and surface, for the view that they were made for; grows buffers when a frame
+  /// needs more than any before. Fails, keeping nothing of the frame, when the device's buffer textures cannot hold it
+  /// (GL_MAX_TEXTURE_BUFFER_SIZE; records take 5 texels, surface nodes 1). Binds nothing. The arguments may go away
+  /// afterwards.
+  Expected<void> upload(const Seeding& seeding, const FixedTriangles& triangles, const View& view);
 
   /// Classifies the uploaded clusters into one feedback stream a species, by passes of four. Call after upload, before
   /// draw, once a frame. Binds: program, vertex array, transform feedback, draw framebuffer (its own, 1 x 1), uniform
   /// buffers frame and species, texture units base_map_raw, triangles, surface; enables GL_RASTERIZER_DISCARD.
-  /// Leaves: program 0, vertex array 0, feedback 0, those units and bindings 0, discard disabled, and
-  /// `restore_framebuffer` bound for drawing.
+  /// Leaves: program 0, vertex array 0, feedback 0, those units (their samplers too) and bindings 0, discard disabled,
+  /// and `restore_framebuffer` bound for drawing. The host must have no query of feedback or generated primitives
+  /// active, here and in draw.
   void classify(const gl::Frame& frame, const gl::GroundTextures& ground, GLuint restore_framebuffer);
 
   /// Grows and draws every species, shadows included. Binds: programs, vertex array, uniform buffers frame and species,
   /// texture units base_map, base_map_raw, triangles, surface, blade_shape; sets GL_PATCH_VERTICES 1; enables
   /// GL_SAMPLE_ALPHA_TO_COVERAGE on multisampled targets (frame.samples() > 1).
-  /// Leaves: program 0, vertex array 0, those units and bindings 0, alpha-to-coverage disabled, patch vertices 1. The
-  /// host chooses depth test, depth mask, culling (must be off), blending (must be off).
+  /// Leaves: program 0, vertex array 0, those units (their samplers too) and bindings 0, alpha-to-coverage disabled,
+  /// patch vertices 1. The host chooses depth test, depth mask, culling (must be off), blending (must be off). Draws
+  /// nothing before the first classify.
   void draw(const gl::Frame& frame, const gl::GroundTextures& ground);
 
   /// Results of the queries of the last classify and draw; `wait` blocks until they are there.

@@ -1,0 +1,53 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+// Light on and through leaves (Papavasiliou 2015, section 2.4, equations 13 and 14), darkened towards the root by the
+// plants around (Reeves, Blau 1985). GLSL only.
+#include "common_layer.glsl"
+#include "common_light.glsl"
+
+struct Leaf {
+  vec3 albedo;
+  float sky;  // share of the sky's light that comes down to here
+  float sun;  // share of the sun's
+};
+
+// Light that comes down between the neighbours to relative height `s`: nearly all at the tips, root_shade at the root.
+float canopy_light(float root_shade, float s) { return mix(root_shade, 1.0, smoothstep(0.0, 0.9, s)); }
+
+// Equation 13 without the light's colour.
+float transmitted(float facing, float attenuation) {
+  return facing < 0.0 ? -facing * exp(attenuation / min(facing, -0.05)) : 0.0;
+}
+
+// A blade at arc length `s`, `across` -1..1: the ground's colour, tinted towards the tip, older ones drier; one blade
+// differs from the next.
+Leaf grass_leaf(SpeciesParams species, vec4 ground_and_age, float s, float across, float phase) {
+  float age = ground_and_age.w;
+  float root_shade = species.age_tint.w;
+  vec3 fresh = mix(vec3(1.0), species.tint.rgb, smoothstep(0.0, 0.6, s));
+  // Blades dry from the tip down.
+  float dry = age * mix(0.6, 1.0, smoothstep(0.2, 1.0, s));
+  float own = 0.82 + 0.36 * fract(phase * 7.31);
+  float vein = 1.0 - 0.12 * exp(-12.0 * across * across);
+  Leaf leaf;
+  leaf.albedo = ground_and_age.rgb * mix(fresh, species.age_tint.rgb, dry) * (own * vein);
+  // Shade below must not darken the field as a whole: what is seen of it are mostly tips.
+  leaf.albedo *= 1.7 / (1.0 + root_shade);
+  leaf.sky = canopy_light(root_shade, s);
+  leaf.sun = canopy_light(root_shade * root_shade, s);
+  return leaf;
+}
+
+// Equation 14; `normal` and `to_eye` are unit vectors, the normal on the viewer's side.
+vec3 shade_leaf(SpeciesParams species, Leaf leaf, vec3 normal, vec3 to_eye) {
+  vec3 sun = frame.sun_direction.xyz;
+  float facing = dot(normal, sun);
+  float through = species.optics.x * transmitted(facing, species.optics.y);
+  // Light that has passed a leaf is yellower.
+  vec3 through_tint = leaf.albedo * vec3(1.15, 1.1, 0.55);
+  vec3 diffuse = leaf.albedo * max(facing, 0.0) + through_tint * through;
+  float gloss = pow(max(dot(to_eye, reflect(-sun, normal)), 0.0), species.optics.w);
+  float shine = facing > 0.0 ? species.optics.z * gloss : 0.0;
+  return ambient(normal) * leaf.albedo * leaf.sky + sun_light() * leaf.sun * (diffuse + vec3(shine));
+}

@@ -1,0 +1,69 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+// Growth of grass, a patch a cluster: each invocation grows one seed; those that can be seen become isolines.
+#include "common_grow.glsl"
+#include "common_blade.glsl"
+#include "common_ground.glsl"
+#include "common_visible.glsl"
+
+layout(vertices = SWARD_CLUSTER_SIZE) out;
+
+layout(location = 0) in uvec4 cluster_words[];
+
+layout(location = 0) out vec4 blade_root[];    // root relative to the eye, height as drawn (0: not drawn)
+layout(location = 1) out vec4 blade_form[];    // half width as drawn, stiffness, azimuth, lean
+layout(location = 2) out vec4 blade_ground[];  // surface normal x, y; base map coordinates
+layout(location = 3) out vec4 blade_color[];   // ground at the root, linear; age
+layout(location = 4) out vec4 blade_self[];    // contact with the ground, phase, distance, unused
+layout(location = 5) patch out uint blade_slots[(SWARD_CLUSTER_SIZE + 3) / 4];  // invocation of each line, 8 bits each
+
+layout(binding = SWARD_BINDING_BASE_MAP) uniform sampler2D sward_base_map;
+
+// Below this height, pixels, a plant is left to the ground's own colour.
+const float k_least_height_px = 0.3;
+
+void write_blade(Seedling s) {
+  vec2 azimuth = vec2(cos(s.traits.azimuth), sin(s.traits.azimuth));
+  float slope = -dot(s.ground_normal.xy, azimuth) / s.ground_normal.z;
+  BladeCurve curve = free_curve(s.traits.stiffness, s.traits.lean, slope);
+  vec3 color = ground_albedo(sward_base_map, s.map_uv, s.root, s.ground_normal);
+  float half_width = 0.5 * s.traits.width * s.presence.grow * s.presence.widen;
+  blade_root[gl_InvocationID] = vec4(s.root, s.traits.height * s.presence.fade);
+  blade_form[gl_InvocationID] = vec4(half_width, s.traits.stiffness, s.traits.azimuth, s.traits.lean);
+  blade_ground[gl_InvocationID] = vec4(s.ground_normal.xy, s.map_uv);
+  blade_color[gl_InvocationID] = vec4(color, s.traits.age);
+  blade_self[gl_InvocationID] = vec4(find_contact(curve), s.traits.phase, s.distance, 0.0);
+}
+
+bool worth_drawing(Seedling s) {
+  if (s.presence.fade <= 0.0) return false;
+  float height = s.traits.height * s.presence.fade;
+  if (height * frame.focal.y < k_least_height_px * s.distance) return false;
+  return sphere_visible(s.root, height * (1.0 + shadow_reach(sward_layer.layer, s.distance)));
+}
+
+void main() {
+  Seedling s = grow_seed(unpack_cluster(cluster_words[0]), uint(gl_InvocationID));
+  blade_root[gl_InvocationID] = vec4(0.0);
+  if (worth_drawing(s)) write_blade(s);
+  barrier();
+  if (gl_InvocationID != 0) return;
+
+  // Lines only for what is drawn; the nearest of them decides the segments of all.
+  uint lines = 0u;
+  float nearest = 1.0e9;
+  for (int slot = 0; slot < blade_slots.length(); ++slot) blade_slots[slot] = 0u;
+  for (uint i = 0u; i < uint(SWARD_CLUSTER_SIZE); ++i) {
+    if (blade_root[i].w <= 0.0) continue;
+    blade_slots[lines / 4u] |= i << (8u * (lines % 4u));
+    nearest = min(nearest, blade_self[i].z);
+    ++lines;
+  }
+  gl_TessLevelOuter[0] = float(lines);
+  gl_TessLevelOuter[1] = segment_count(sward_layer.species[sward_species], sward_layer.layer, nearest);
+  gl_TessLevelOuter[2] = 1.0;
+  gl_TessLevelOuter[3] = 1.0;
+  gl_TessLevelInner[0] = 1.0;
+  gl_TessLevelInner[1] = 1.0;
+}

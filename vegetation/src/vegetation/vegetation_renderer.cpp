@@ -1,0 +1,139 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+#include <sward/vegetation/vegetation_renderer.h>
+
+#include "vegetation/vegetation_renderer_stages.h"
+
+namespace sward {
+
+namespace {
+
+constexpr size_t k_query_frames = 3;
+
+gl::Buffer make_species_buffer(const Layer& layer) {
+  SpeciesBlock block;
+  const std::vector<shared::SpeciesParams> params = make_species_params(layer);
+  std::copy(params.begin(), params.end(), block.species.begin());
+  for (const StreamPlace& place : place_species(layer))
+    block.species[size_t(place.species)].kind.w = float(place.pass * k_streams + place.stream);
+  return make_buffer(sizeof block, &block, GL_DYNAMIC_STORAGE_BIT);
+}
+
+}  // namespace
+
+struct VegetationRenderer::Impl {
+  Layer layer;
+  gl::Bindings bindings;
+  ClassificationStage classification;
+  GrowthStage growth;
+  ReadBackStage read_back;
+  TriangleBuffers triangles;
+  gl::Buffer species;
+  std::array<StageQueries, k_query_frames> queries;
+  size_t query_frame = 0;
+  VegetationStats last_stats;
+
+  View view;
+  std::array<DensityBin, k_density_bins> bins{};
+  uint32_t clusters = 0;
+  bool uploaded = false, classified = false;
+
+  StageInputs inputs(const gl::Frame& frame, const gl::GroundTextures& ground) const {
+    return {bindings, frame, ground, triangles, species.id()};
+  }
+};
+
+VegetationRenderer::VegetationRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+VegetationRenderer::VegetationRenderer(VegetationRenderer&&) noexcept = default;
+VegetationRenderer& VegetationRenderer::operator=(VegetationRenderer&&) noexcept = default;
+VegetationRenderer::~VegetationRenderer() = default;
+
+Expected<VegetationRenderer> VegetationRenderer::create(const Layer& layer, const gl::ShaderLibrary& shaders,
+                                                        const gl::Bindings& bindings) {
+  if (auto valid = validate(layer); !valid) return tl::unexpected(valid.error());
+  if (auto context = gl::require_context(); !context) return tl::unexpected(context.error());
+  auto classification = ClassificationStage::create(layer, shaders, bindings);
+  if (!classification) return tl::unexpected(classification.error());
+  auto growth = GrowthStage::create(layer, shaders, bindings);
+  if (!growth) return tl::unexpected(growth.error());
+  auto read_back = ReadBackStage::create(layer, shaders, bindings);
+  if (!read_back) return tl::unexpected(read_back.error());
+  const size_t streams = classification->places().size();
+  return VegetationRenderer(std::make_unique<Impl>(
+      Impl{.layer = layer,
+           .bindings = bindings,
+           .classification = std::move(*classification),
+           .growth = std::move(*growth),
+           .read_back = std::move(*read_back),
+           .triangles = TriangleBuffers::create(),
+           .species = make_species_buffer(layer),
+           .queries = {StageQueries::create(streams), StageQueries::create(streams), StageQueries::create(streams)},
+           .last_stats = {},
+           .view = {}}));
+}
+
+const Layer& VegetationRenderer::layer() const {
+  return impl_->layer;
+}
+
+Expected<void> VegetationRenderer::upload(const Seeding& seeding, const FixedTriangles& triangles, const View& view) {
+  Impl& self = *impl_;
+  self.uploaded = false;
+  self.classified = false;
+  if (auto written = self.triangles.write(seeding.records, triangles.surface); !written) return written;
+  self.classification.reserve(seeding.clusters);
+  self.view = view;
+  self.bins = seeding.bins;
+  self.clusters = seeding.clusters;
+  self.uploaded = true;
+  return {};
+}
+
+void VegetationRenderer::classify(const gl::Frame& frame, const gl::GroundTextures& ground,
+                                  GLuint restore_framebuffer) {
+  Impl& self = *impl_;
+  SWARD_ASSERT(self.uploaded, "upload a seeding before classifying");
+  const MapGeometry map{ground.map_size(), ground.texels()};
+  // The sun's azimuth reaches the shaders with the frame.
+  const shared::LayerParams params = make_layer_params(self.layer, self.view, map, 0.0f);
+  glNamedBufferSubData(self.species.id(), 0, sizeof params, &params);
+  self.query_frame = (self.query_frame + 1) % k_query_frames;
+  StageQueries& queries = self.queries[self.query_frame];
+  queries.begin_frame(self.clusters);
+  self.classification.run(self.inputs(frame, ground), self.bins, queries, restore_framebuffer);
+  self.classified = true;
+}
+
+void VegetationRenderer::draw(const gl::Frame& frame, const gl::GroundTextures& ground) {
+  Impl& self = *impl_;
+  if (!self.classified) return;
+  StageQueries& queries = self.queries[self.query_frame];
+  queries.begin_growth();
+  self.growth.run(self.inputs(frame, ground), self.classification);
+  queries.end_growth();
+}
+
+VegetationStats VegetationRenderer::stats(bool wait) {
+  Impl& self = *impl_;
+  for (size_t age = 0; age < k_query_frames; ++age) {
+    const StageQueries& queries = self.queries[(self.query_frame + k_query_frames - age) % k_query_frames];
+    if (!wait && !queries.ready()) continue;
+    self.last_stats = queries.read();
+    break;
+  }
+  return self.last_stats;
+}
+
+Expected<std::vector<Plant>> VegetationRenderer::read_back(const gl::Frame& frame, const gl::GroundTextures& ground,
+                                                           const View& view, const Seeding& seeding,
+                                                           GLuint restore_framebuffer) {
+  Impl& self = *impl_;
+  if (!self.classified) return fail("no plants to read back: nothing was classified since the last upload");
+  if (seeding.clusters != self.clusters) return fail("the plants to read back come from another seeding");
+  const std::vector<uint32_t> fertile = self.queries[self.query_frame].fertile();
+  return self.read_back.run(self.inputs(frame, ground), self.classification, fertile, view, seeding,
+                            restore_framebuffer);
+}
+
+}  // namespace sward

@@ -1,0 +1,104 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+// Classification: instanced clusters in, a feedback stream a species out (Papavasiliou 2015, sections 3.2 and 3.5).
+#include <sward/vegetation/blade_shape.h>
+#include <algorithm>
+
+#include "vegetation/vegetation_renderer_stages.h"
+
+namespace sward {
+
+namespace {
+
+constexpr GLint k_first_growing_location = 0;
+
+}  // namespace
+
+std::vector<StreamPlace> place_species(const Layer& layer) {
+  std::vector<StreamPlace> places;
+  for (int species = 0; species < int(layer.species.size()); ++species) {
+    if (layer.species[size_t(species)].kind == PlantKind::none) continue;
+    const int ordinal = int(places.size());
+    places.push_back({species, ordinal / k_streams, ordinal % k_streams});
+  }
+  return places;
+}
+
+std::vector<gl::Define> layer_defines(const Layer& layer, const gl::Bindings& bindings) {
+  std::vector<gl::Define> defines = gl::binding_defines(bindings);
+  defines.push_back({"SWARD_CLUSTER_SIZE", std::to_string(layer.cluster_size)});
+  defines.push_back({"SWARD_BLADE_COLUMNS", std::to_string(k_blade_columns)});
+  defines.push_back({"SWARD_BLADE_ROWS", std::to_string(k_blade_rows)});
+  // The second invocation of the geometry shader is the shadow.
+  defines.push_back({"SWARD_GROWTH_INVOCATIONS", layer.shadows ? "2" : "1"});
+  return defines;
+}
+
+gl::Framebuffer make_empty_framebuffer() {
+  gl::Framebuffer framebuffer = gl::create_framebuffer();
+  glNamedFramebufferParameteri(framebuffer.id(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
+  glNamedFramebufferParameteri(framebuffer.id(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
+  return framebuffer;
+}
+
+Expected<ClassificationStage> ClassificationStage::create(const Layer& layer, const gl::ShaderLibrary& shaders,
+                                                          const gl::Bindings& bindings) {
+  auto program = shaders.build({.name = "classify",
+                                .vertex = "classify.vert.glsl",
+                                .tess_control = {},
+                                .tess_evaluation = {},
+                                .geometry = "classify.geom.glsl",
+                                .fragment = {},
+                                .defines = layer_defines(layer, bindings),
+                                .feedback_varyings = {}});
+  if (!program) return tl::unexpected(program.error());
+  ClassificationStage stage;
+  stage.places_ = place_species(layer);
+  stage.program_ = std::move(*program);
+  stage.vertex_array_ = gl::create_vertex_array();
+  stage.framebuffer_ = make_empty_framebuffer();
+  for (int left = int(stage.places_.size()); left > 0; left -= k_streams)
+    stage.passes_.push_back(FeedbackPass::create(std::min(left, k_streams)));
+  return stage;
+}
+
+void ClassificationStage::reserve(size_t clusters) {
+  for (FeedbackPass& pass : passes_) pass.reserve(clusters);
+}
+
+void ClassificationStage::run(const StageInputs& inputs, std::span<const DensityBin> bins, StageQueries& queries,
+                              GLuint restore_framebuffer) {
+  const gl::Bindings& units = inputs.bindings;
+  const StageBindings bound(units, inputs.frame.buffer(), inputs.species,
+                            {{units.base_map_raw, inputs.ground.base_map_raw()},
+                             {units.triangles, inputs.triangles.records()},
+                             {units.surface, inputs.triangles.surface()}});
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.id());
+  glEnable(GL_RASTERIZER_DISCARD);
+  glUseProgram(program_.id());
+  glBindVertexArray(vertex_array_.id());
+  for (int pass = 0; pass < int(passes_.size()); ++pass) run_pass(pass, bins, queries);
+  glBindVertexArray(0);
+  glUseProgram(0);
+  glDisable(GL_RASTERIZER_DISCARD);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, restore_framebuffer);
+}
+
+void ClassificationStage::run_pass(int pass, std::span<const DensityBin> bins, StageQueries& queries) {
+  const size_t first = size_t(pass) * k_streams;
+  const size_t last = std::min(first + k_streams, places_.size());
+  glProgramUniform1i(program_.id(), k_first_growing_location, GLint(first));
+  glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, passes_[size_t(pass)].id());
+  for (size_t i = first; i < last; ++i) queries.begin_stream(places_[i], i);
+  glBeginTransformFeedback(GL_POINTS);
+  for (const DensityBin& bin : bins) {
+    if (bin.triangles == 0 || bin.clusters == 0) continue;
+    glDrawArraysInstanced(GL_POINTS, GLint(bin.first), GLsizei(bin.triangles), GLsizei(bin.clusters));
+  }
+  glEndTransformFeedback();
+  for (size_t i = first; i < last; ++i) queries.end_stream(places_[i]);
+  glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, 0);
+}
+
+}  // namespace sward

@@ -1,0 +1,118 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The stages of a VegetationRenderer: classification sorts clusters into feedback streams, growth draws the streams,
+// reading back captures them. Each owns its program, vertex array and what it feeds.
+#include <sward/gl/frame.h>
+#include <sward/gl/ground.h>
+#include <sward/gl/shader_library.h>
+#include <sward/vegetation/plants.h>
+#include <sward/vegetation/vegetation_renderer.h>
+
+#include "vegetation/vegetation_renderer_buffers.h"
+
+namespace sward {
+
+/// Where a growing species' clusters are fed back to.
+struct StreamPlace {
+  int species;  ///< Index in the layer.
+  int pass, stream;
+};
+
+/// Species that grow, in the layer's order, four a pass.
+std::vector<StreamPlace> place_species(const Layer& layer);
+
+/// Defines of every program of a layer.
+std::vector<gl::Define> layer_defines(const Layer& layer, const gl::Bindings& bindings);
+
+/// What every stage reads in a frame.
+struct StageInputs {
+  const gl::Bindings& bindings;
+  const gl::Frame& frame;
+  const gl::GroundTextures& ground;
+  const TriangleBuffers& triangles;
+  GLuint species;
+};
+
+/// Queries around one frame's stages. Results arrive frames later; nothing waits unless it is asked to.
+class StageQueries {
+ public:
+  static StageQueries create(size_t streams);
+  void begin_frame(uint32_t clusters_submitted);
+  void begin_stream(const StreamPlace& place, size_t index);
+  void end_stream(const StreamPlace& place);
+  void begin_growth();
+  void end_growth();
+  bool ready() const;
+  /// Blocks until the results are there.
+  VegetationStats read() const;
+  /// Clusters in each stream; blocks.
+  std::vector<uint32_t> fertile() const;
+
+ private:
+  std::vector<gl::Query> written_, generated_;  ///< One a growing species.
+  gl::Query primitives_;
+  uint32_t clusters_submitted_ = 0;
+  bool classified_ = false, drawn_ = false;
+};
+
+class ClassificationStage {
+ public:
+  static Expected<ClassificationStage> create(const Layer& layer, const gl::ShaderLibrary& shaders,
+                                              const gl::Bindings& bindings);
+  void reserve(size_t clusters);
+  void run(const StageInputs& inputs, std::span<const DensityBin> bins, StageQueries& queries,
+           GLuint restore_framebuffer);
+  std::span<const StreamPlace> places() const { return places_; }
+  const FeedbackPass& pass(int index) const { return passes_[size_t(index)]; }
+
+ private:
+  void run_pass(int pass, std::span<const DensityBin> bins, StageQueries& queries);
+
+  std::vector<StreamPlace> places_;
+  std::vector<FeedbackPass> passes_;
+  gl::Program program_;
+  gl::VertexArray vertex_array_;
+  gl::Framebuffer framebuffer_;
+};
+
+/// A vertex array whose one attribute is a fed-back cluster; set_stream chooses the buffer.
+gl::VertexArray make_cluster_array();
+void set_stream(const gl::VertexArray& array, GLuint buffer);
+
+class GrowthStage {
+ public:
+  static Expected<GrowthStage> create(const Layer& layer, const gl::ShaderLibrary& shaders,
+                                      const gl::Bindings& bindings);
+  void run(const StageInputs& inputs, const ClassificationStage& classified);
+
+ private:
+  std::vector<gl::Program> programs_;  ///< By row of the table of kinds; empty where the layer has none of it.
+  std::vector<size_t> program_of_;     ///< By species.
+  gl::Buffer blade_shape_buffer_;
+  gl::Texture blade_shape_;
+  gl::VertexArray vertex_array_;
+};
+
+class ReadBackStage {
+ public:
+  static Expected<ReadBackStage> create(const Layer& layer, const gl::ShaderLibrary& shaders,
+                                        const gl::Bindings& bindings);
+  /// `fertile`: clusters in each of the classification's streams.
+  std::vector<Plant> run(const StageInputs& inputs, const ClassificationStage& classified,
+                         std::span<const uint32_t> fertile, const View& view, const Seeding& seeding,
+                         GLuint restore_framebuffer);
+
+ private:
+  gl::Program program_;
+  gl::VertexArray vertex_array_;
+  gl::Feedback feedback_;
+  gl::Framebuffer framebuffer_;
+  int cluster_size_ = 1;
+};
+
+/// For drawing without a picture: no attachments, 1 x 1.
+gl::Framebuffer make_empty_framebuffer();
+
+}  // namespace sward
