@@ -32,8 +32,6 @@ constexpr int k_lowest_exponent = -12;
 constexpr uint16_t k_largest = 0xfffe;
 // Passes over wider spacings take no time worth telling.
 constexpr int k_coarsest_reported = 8;
-// Rounding in computing a deviation, relative to it.
-constexpr double k_slack = 1.0 + 1e-12;
 
 uint16_t encode_double_up(double metres) {
   // Below the lowest exponent numbers are spaced evenly, as in IEEE formats.
@@ -149,7 +147,7 @@ class BoundsBuilder {
       return;
     }
     const double bend = std::abs(raw(centre) - 0.5 * (raw(centre - half) + raw(centre + half)));
-    stored_[index(centre)] = encode_double_up((below.bound + scale_ * bend) * k_slack);
+    stored_[index(centre)] = encode_double_up(below.bound + scale_ * bend);
   }
 
   size_t index(glm::ivec2 sample) const { return size_t(sample.y) * size_t(size_.x) + size_t(sample.x); }

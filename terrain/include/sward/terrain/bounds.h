@@ -12,7 +12,7 @@ namespace sward {
 /// Nested wedgie bounds (Duchaineau et al. 1997, section 4): for every diamond whose centre is a data sample,
 ///   e(diamond) = max over child diamonds of e + |z(centre) - (z(left) + z(right)) / 2|,
 /// so that the finest surface lies within +-e of either of its triangles. Stored once a diamond, by its centre, as a
-/// 16-bit float (5 bit exponent, 11 bit mantissa) rounded up: it neither saturates below 2^19 m nor loses more than
+/// 16-bit float (5 bit exponent, 11 bit mantissa) rounded up: it neither saturates below 500 km nor loses more than
 /// 1/2048 (2^-23 m below a quarter of a millimetre). The relief's analytic bound is in it. Diamonds below which there
 /// are only holes and padding count 0. A diamond's bound is never below that of the diamonds that depend on it.
 class Bounds {
