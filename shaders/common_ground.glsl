@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: MIT
 
 // The ground's colour from the base map, with the structure that lies below its texels: patches, clods, grains.
-// Everything is a function of the place alone; each octave fades before it would alias.
+// Everything is a function of the place alone; each octave fades before it would alias, and its mean is nothing, so
+// that the near ground has the colour of the far.
 #include "common_frame.glsl"
 #include "common_noise.glsl"
 
 struct GroundDetail {
   float shade;   // factor on brightness, around 1
-  float litter;  // 0: as the base map says .. 1: bare earth and dry litter
+  float litter;  // 1: towards bare earth and dry litter .. -1: away from it
   vec2 warp;     // of the base map lookup, texels
   vec2 slope;    // dz/dx, dz/dy of clods and grains
 };
@@ -27,11 +28,10 @@ GroundDetail ground_detail(vec3 relative_position, vec3 normal) {
   vec2 p = frame.eye_noise.xy + relative_position.xy;
   float footprint = ground_footprint(relative_position, normal);
   GroundDetail detail;
-  vec3 broad = ground_noise(p, 1.0 / 32.0, 1u);
-  vec3 patches = ground_noise(p, 0.125, 2u);
-  float wide = octave_weight(0.125, footprint);
-  detail.shade = 1.0 + 0.12 * broad.x + 0.16 * wide * patches.x;
-  detail.litter = 0.5 * broad.x + 0.9 * wide * patches.x;
+  float broad = ground_noise(p, 0.03125, 1u).x * octave_weight(0.03125, footprint);
+  float patches = ground_noise(p, 0.125, 2u).x * octave_weight(0.125, footprint);
+  detail.shade = 1.0 + 0.12 * broad + 0.16 * patches;
+  detail.litter = 0.5 * broad + 0.9 * patches;
   detail.warp = vec2(0.0);
   detail.slope = vec2(0.0);
 
@@ -53,7 +53,7 @@ GroundDetail ground_detail(vec3 relative_position, vec3 normal) {
     grain *= 1.06;
   }
   detail.shade = max(detail.shade, 0.35);
-  detail.litter = smoothstep(0.0, 0.8, detail.litter);
+  detail.litter = clamp(1.3 * detail.litter, -1.0, 1.0);
   return detail;
 }
 
@@ -67,7 +67,7 @@ vec3 ground_albedo(sampler2D base_map, vec2 uv, GroundDetail detail) {
   float earthy = (1.0 - snow) * (1.0 - water);
   float luminance = dot(base, vec3(0.2126, 0.7152, 0.0722));
   vec3 earth = luminance * vec3(1.24, 0.95, 0.62);
-  vec3 color = mix(base, earth, 0.55 * detail.litter * earthy);
+  vec3 color = max(mix(base, earth, 0.45 * detail.litter * earthy), 0.25 * base);
   return color * mix(1.0, detail.shade, 0.25 + 0.75 * earthy);
 }
 

@@ -5,6 +5,15 @@
 
 namespace sward::host {
 
+namespace {
+
+/// Binds a uniform buffer to its index alone: glBindBufferBase would change the general binding as well.
+void bind_uniforms(GLuint index, GLuint buffer) {
+  glBindBuffersBase(GL_UNIFORM_BUFFER, index, 1, &buffer);
+}
+
+}  // namespace
+
 Expected<Sky> Sky::create(const gl::ShaderLibrary& shaders, const gl::Bindings& bindings) {
   gl::ProgramDesc desc;
   desc.name = "sky";
@@ -23,11 +32,11 @@ Expected<Sky> Sky::create(const gl::ShaderLibrary& shaders, const gl::Bindings& 
 void Sky::draw(const gl::Frame& frame) {
   glUseProgram(program_.id());
   glBindVertexArray(vertex_array_.id());
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings_.frame, frame.buffer());
+  bind_uniforms(bindings_.frame, frame.buffer());
   glDepthFunc(GL_LEQUAL);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDepthFunc(GL_LESS);
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings_.frame, 0);
+  bind_uniforms(bindings_.frame, 0);
   glBindVertexArray(0);
   glUseProgram(0);
 }

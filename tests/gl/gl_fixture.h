@@ -146,6 +146,7 @@ class PoisonedState {
  public:
   PoisonedState() {
     const GLuint buffer = make_buffer();
+    glUseProgram(make_program());
     for (const GLenum target : k_buffer_targets) glBindBuffer(target, buffer);
     for (GLuint i = 0; i < k_probed_units; ++i) {
       glBindBufferBase(GL_UNIFORM_BUFFER, i, buffer);
@@ -188,7 +189,7 @@ class PoisonedState {
  private:
   static constexpr GLenum k_buffer_targets[] = {GL_ARRAY_BUFFER,      GL_UNIFORM_BUFFER,      GL_SHADER_STORAGE_BUFFER,
                                                 GL_COPY_READ_BUFFER,  GL_COPY_WRITE_BUFFER,   GL_TEXTURE_BUFFER,
-                                                GL_PIXEL_PACK_BUFFER, GL_DRAW_INDIRECT_BUFFER};
+                                                GL_PIXEL_PACK_BUFFER, GL_PIXEL_UNPACK_BUFFER, GL_DRAW_INDIRECT_BUFFER};
   GLuint make_buffer() {
     buffer_ = gl::create_buffer();
     glNamedBufferStorage(buffer_.id(), 4096, nullptr, GL_DYNAMIC_STORAGE_BIT);
@@ -197,6 +198,18 @@ class PoisonedState {
     vertex_array_ = gl::create_vertex_array();
     return buffer_.id();
   }
+  GLuint make_program() {
+    program_ = gl::Program(glCreateProgram());
+    const GLuint shader = glCreateShader(GL_VERTEX_SHADER);
+    const char* const text = "#version 450 core\nvoid main() { gl_Position = vec4(0.0); }\n";
+    glShaderSource(shader, 1, &text, nullptr);
+    glCompileShader(shader);
+    glAttachShader(program_.id(), shader);
+    glLinkProgram(program_.id());
+    glDeleteShader(shader);
+    return program_.id();
+  }
+  gl::Program program_;
   gl::Buffer buffer_;
   gl::Texture texture_;
   gl::VertexArray vertex_array_;

@@ -32,6 +32,11 @@ void set_vec4(const gl::Program& program, Location location, const glm::vec4& va
   glProgramUniform4f(program.id(), location, value.x, value.y, value.z, value.w);
 }
 
+/// Binds a uniform buffer to its index alone: glBindBufferBase would change the general binding as well.
+void bind_uniforms(GLuint index, GLuint buffer) {
+  glBindBuffersBase(GL_UNIFORM_BUFFER, index, 1, &buffer);
+}
+
 }  // namespace
 
 Expected<TerrainRenderer> TerrainRenderer::create(const gl::ShaderLibrary& shaders, const gl::Bindings& bindings) {
@@ -124,13 +129,13 @@ void TerrainRenderer::draw(const View& view, const gl::Frame& frame, const gl::G
 
   glUseProgram(program_.id());
   glBindVertexArray(vertex_array_.id());
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings_.frame, frame.buffer());
+  bind_uniforms(bindings_.frame, frame.buffer());
   glBindTextureUnit(bindings_.base_map, ground.base_map());
   glBindTextureUnit(bindings_.slope_map, ground.slope_map());
   glDrawElements(GL_TRIANGLES, GLsizei(index_count_), GL_UNSIGNED_INT, nullptr);
   glBindTextureUnit(bindings_.slope_map, 0);
   glBindTextureUnit(bindings_.base_map, 0);
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings_.frame, 0);
+  bind_uniforms(bindings_.frame, 0);
   glBindVertexArray(0);
   glUseProgram(0);
 }
