@@ -2,3 +2,86 @@
 // SPDX-License-Identifier: MIT
 
 #include <sward/scene/scene.h>
+
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "scene/scene_keys.h"
+
+namespace sward {
+
+namespace {
+
+constexpr uintmax_t k_largest_scene = 4 << 20;
+
+Expected<Scene> parse(std::string_view text, const std::string& name) {
+  const scene_file::Context context{name};
+  const toml::parse_result parsed = toml::parse(text);
+  if (!parsed) {
+    return context.fail_at(parsed.error().source(), "expected TOML: " + std::string(parsed.error().description()));
+  }
+  Scene scene;
+  if (auto read = scene_file::read_fields(parsed.table(), scene_file::scene_schema(), scene, context); !read) {
+    return tl::unexpected(read.error());
+  }
+  return scene;
+}
+
+Expected<std::string> read_text(const std::string& path) {
+  std::error_code code;
+  const std::string name = "scene \"" + path + "\"";
+  const auto status = std::filesystem::status(path, code);
+  if (path.empty() || !std::filesystem::exists(status)) return fail(name + " does not exist or cannot be reached");
+  if (!std::filesystem::is_regular_file(status)) return fail(name + " is no file, expected a scene in TOML");
+  if (std::filesystem::file_size(path, code) > k_largest_scene || code) {
+    return fail(name + " is larger than 4 MiB, expected a scene in TOML");
+  }
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || (stream.peek() != std::ifstream::traits_type::eof() && !(text << stream.rdbuf()))) {
+    return fail(name + " cannot be read");
+  }
+  return text.str();
+}
+
+}  // namespace
+
+std::string Scene::resolve(const std::string& path) const {
+  const std::filesystem::path given(path);
+  if (directory.empty() || path.empty() || given.is_absolute()) return path;
+  return (std::filesystem::path(directory) / given).lexically_normal().string();
+}
+
+Expected<Scene> parse_scene(std::string_view text, const std::string& name) {
+  try {
+    return parse(text, name);
+  } catch (const std::exception& error) {
+    return fail(name + ":1: cannot be read: " + error.what());
+  }
+}
+
+Expected<Scene> load_scene(const std::string& path) {
+  try {
+    const auto text = read_text(path);
+    if (!text) return tl::unexpected(text.error());
+    auto scene = parse_scene(*text, path);
+    if (scene) scene->directory = std::filesystem::path(path).parent_path().string();
+    return scene;
+  } catch (const std::exception& error) {
+    return fail("scene \"" + path + "\" cannot be read: " + error.what());
+  }
+}
+
+Expected<Scene> builtin_scene(std::string_view name) {
+  std::string known;
+  for (const EmbeddedText& scene : embedded_scenes()) {
+    const std::string_view stem = scene.name.substr(0, scene.name.rfind('.'));
+    if (stem == name) return parse_scene(scene.text, std::string(scene.name));
+    known += (known.empty() ? "\"" : ", \"") + std::string(stem) + "\"";
+  }
+  return fail("there is no built-in scene \"" + std::string(name) + "\", expected one of " + known);
+}
+
+}  // namespace sward

@@ -1,0 +1,303 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+#include "scene/scene_keys.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <set>
+
+#include "scene/scene_values.h"
+
+namespace sward::scene_file {
+
+namespace {
+
+constexpr double k_most_uint32 = std::numeric_limits<uint32_t>::max();
+
+/// Fails at the first of these keys that the table has: it would have no effect.
+Expected<void> refuse(const toml::table& table, std::initializer_list<std::string_view> keys,
+                      const std::string& because, const Context& context) {
+  for (const auto& [name, node] : entries_in_order(table)) {
+    if (std::find(keys.begin(), keys.end(), name->str()) != keys.end()) {
+      return context.fail_at(name->source(), std::string(name->str()) + " has no effect " + because);
+    }
+  }
+  return {};
+}
+
+/// Fails at the first table of a list whose name an earlier one has.
+Expected<void> refuse_same_names(const toml::table& table, std::string_view list, const Context& context) {
+  std::set<std::string> seen;
+  const toml::array* array = table.get_as<toml::array>(list);
+  if (array == nullptr) return {};
+  for (const toml::node& element : *array) {
+    const toml::node* name = element.as_table()->get("name");
+    const auto* words = name == nullptr ? nullptr : name->as_string();
+    if (words != nullptr && !seen.insert(words->get()).second) {
+      return context.fail_at(
+          *name, "a second " + std::string(list) + " is named " + quoted(*name) + ", expected a name of its own");
+    }
+  }
+  return {};
+}
+
+// ---- [terrain] ----
+
+Key<Scene> spacing_key() {
+  const Interval range = above(0);
+  return {"spacing_m",
+          "a number > 0, or two (east-west, north-south) (metres)",
+          [=](const toml::node& node, Scene& scene) {
+            if (const auto same = as_number(node)) {
+              if (!range.contains(*same)) return false;
+              scene.spacing = glm::dvec2(*same);
+              return true;
+            }
+            const auto both = as_numbers<2>(node, {range, range});
+            if (both) scene.spacing = {(*both)[0], (*both)[1]};
+            return both.has_value();
+          },
+          {}};
+}
+
+Key<Scene> no_data_key() {
+  return {"no_data",
+          "a number (raw units)",
+          [](const toml::node& node, Scene& scene) {
+            const auto value = as_number(node);
+            if (!value || !any_number().contains(*value)) return false;
+            scene.has_no_data = true;
+            scene.no_data = *value;
+            return true;
+          },
+          {}};
+}
+
+Expected<void> check_terrain(const toml::table& table, const Scene& scene, const Context& context) {
+  const bool generated = !scene.generator.empty(), read = !scene.height_path.empty();
+  if (generated && read) {
+    return context.fail_at(*table.get("height"), "generator and height contradict each other, expected one of them");
+  }
+  if (!generated && !read) {
+    return context.fail_at(table, "[terrain] has no ground, expected generator = \"meadow\" or height = \"FILE\"");
+  }
+  if (generated) {
+    return refuse(table, {"spacing_m", "height_scale_m", "height_offset_m", "no_data", "origin_m"},
+                  "on generated terrain, expected only with height", context);
+  }
+  return refuse(table, {"seed", "samples", "size_m"}, "on a height file, expected only with generator", context);
+}
+
+// ---- [[layer.species]] ----
+
+Key<Species> hex_color_key() {
+  return {"color",
+          "\"#rrggbb\"",
+          [](const toml::node& node, Species& species) {
+            const auto hsv = hsv_of_hex(node);
+            if (hsv) species.reference_hsv = *hsv;
+            return hsv.has_value();
+          },
+          {}};
+}
+
+Key<Species> hsv_key() {
+  const Interval hue{.low = 0, .high = 360, .high_open = true};
+  return {"hsv",
+          "[hue, saturation, value] in [0, 360) degrees, [0, 1], [0, 1]",
+          [=](const toml::node& node, Species& species) {
+            const auto hsv = as_numbers<3>(node, {hue, within(0, 1), within(0, 1)});
+            if (!hsv) return false;
+            // Rounding to float must not make a full turn of the largest hue below 360.
+            const float turns = float((*hsv)[0] / 360.0);
+            species.reference_hsv = {turns < 1.0f ? turns : 0.0f, float((*hsv)[1]), float((*hsv)[2])};
+            return true;
+          },
+          {}};
+}
+
+Key<Species> weights_key() {
+  Key<Species> key = triple("weights", &Species::weights, within(0, 100));
+  key.expected += ", not all 0: of hue, saturation, value";
+  key.read = [read = key.read](const toml::node& node, Species& species) {
+    return read(node, species) && species.weights != glm::vec3(0);
+  };
+  return key;
+}
+
+Expected<void> check_species(const toml::table& table, const Species& species, const Context& context) {
+  if (!table.contains("name")) return context.fail_at(table, "a species has no name, expected name = \"...\"");
+  if (table.contains("color") && table.contains("hsv")) {
+    return context.fail_at(*table.get("hsv"), "color and hsv contradict each other, expected one of them");
+  }
+  if (!table.contains("color") && !table.contains("hsv")) {
+    return context.fail_at(table,
+                           "species \"" + species.name +
+                               "\" has no colour, expected color = \"#rrggbb\" or hsv = [hue, saturation, value]");
+  }
+  if (species.kind == PlantKind::none) {
+    return refuse(table,
+                  {"height_m", "width_m", "stiffness", "lean_deg", "phototropism", "segments", "tint", "age_tint",
+                   "age_share", "root_shade", "translucency", "attenuation", "specular", "shininess"},
+                  "where nothing grows (kind = \"none\")", context);
+  }
+  return refuse(table, {"forbids"}, "on what grows, expected only with kind = \"none\"", context);
+}
+
+// ---- [[layer]] ----
+
+Expected<void> check_layer(const toml::table& table, const Layer& layer, const Context& context) {
+  if (layer.species.empty()) {
+    return context.fail_at(table, "layer \"" + layer.name + "\" has no species, expected [[layer.species]]");
+  }
+  if (auto distinct = refuse_same_names(table, "species", context); !distinct) return distinct;
+  if (layer.law == DensityLaw::distance) {
+    const std::string because = "under law = \"distance\", expected only with screen_area or world_area";
+    if (auto fits = refuse(table, {"ceiling"}, because, context); !fits) return fits;
+  } else {
+    const std::string because = "under this law, expected only with law = \"distance\"";
+    if (auto fits = refuse(table, {"full_distance_m"}, because, context); !fits) return fits;
+  }
+  if (layer.law == DensityLaw::world_area) {
+    const std::string because = "under law = \"world_area\", expected only with distance or screen_area";
+    if (auto fits = refuse(table, {"falloff"}, because, context); !fits) return fits;
+  }
+  if (!layer.shadows) {
+    const std::string because = "with shadows = false";
+    if (auto fits = refuse(table, {"shadow_distance_m"}, because, context); !fits) return fits;
+  }
+  if (auto valid = validate(layer); !valid) return context.fail_at(table, valid.error().message);
+  return {};
+}
+
+Expected<void> check_scene(const toml::table& table, const Scene&, const Context& context) {
+  if (!table.contains("terrain")) {
+    return context.fail_at(table,
+                           "the scene has no [terrain], expected one with generator = \"meadow\" or height = \"FILE\"");
+  }
+  return refuse_same_names(table, "layer", context);
+}
+
+}  // namespace
+
+const Schema<ReliefOptions>& relief_schema() {
+  using R = ReliefOptions;
+  static const Schema<R> schema{"[terrain.relief]",
+                                {flag("enabled", &R::enabled), number("roughness", &R::roughness, within(0, 0.5)),
+                                 number("flat_share", &R::flat_share, within(0, 1)),
+                                 number("full_slope", &R::full_slope, above(0), "rise over run"),
+                                 number("finest_edge_m", &R::finest_edge_m, within(0.1, 100), "metres"),
+                                 whole_number("seed", &R::seed, within(0, k_most_uint32))},
+                                {}};
+  return schema;
+}
+
+const Schema<Scene>& terrain_schema() {
+  static const Schema<Scene> schema{
+      "[terrain]",
+      {choice<Scene, std::string>("generator", &Scene::generator, {{"meadow", "meadow"}}),
+       whole_number("seed", &Scene::generator_seed, within(0, k_most_uint32)),
+       whole_number("samples", &Scene::generator_samples, within(65, 8193)),
+       number("size_m", &Scene::generator_size_m, above(0), "metres"),
+       text("height", &Scene::height_path, "the path of an image"), spacing_key(),
+       number("height_scale_m", &Scene::height_scale, {.not_zero = true}, "metres a raw unit"),
+       number("height_offset_m", &Scene::height_offset, any_number(), "metres"), no_data_key(),
+       triple("origin_m", &Scene::origin, any_number(), "metres"),
+       whole_number("max_triangles", &Scene::max_triangles, within(2, k_most_uint32)),
+       number("target_px", &Scene::target_px, at_least(0), "pixels"),
+       table<Scene, ReliefOptions>("relief", &Scene::relief, relief_schema())},
+      check_terrain};
+  return schema;
+}
+
+const Schema<Scene>& base_map_schema() {
+  static const Schema<Scene> schema{"[base_map]", {text("texture", &Scene::texture_path, "the path of an image")}, {}};
+  return schema;
+}
+
+const Schema<Scene>& sun_schema() {
+  static const Schema<Scene> schema{"[sun]",
+                                    {angle("azimuth_deg", &Scene::sun_azimuth, within(-360, 360)),
+                                     angle("elevation_deg", &Scene::sun_elevation, within(-90, 90))},
+                                    {}};
+  return schema;
+}
+
+const Schema<Scene>& haze_schema() {
+  static const Schema<Scene> schema{"[haze]", {number("distance_m", &Scene::haze_distance_m, above(0), "metres")}, {}};
+  return schema;
+}
+
+const Schema<Scene>& camera_schema() {
+  static const Schema<Scene> schema{
+      "[camera]",
+      {triple("position_m", &Scene::camera, any_number(), "metres"), flag("above_ground", &Scene::camera_above_ground),
+       angle("yaw_deg", &Scene::camera_yaw, within(-360, 360)),
+       angle("pitch_deg", &Scene::camera_pitch, within(-90, 90)), angle("fov_deg", &Scene::fov_y, within(1, 170))},
+      {}};
+  return schema;
+}
+
+const Schema<Species>& species_schema() {
+  using S = Species;
+  static const Schema<S> schema{
+      "[[layer.species]]",
+      {text("name", &S::name, "a word"),
+       choice<S, PlantKind>("kind", &S::kind, {{"blade", PlantKind::blade}, {"none", PlantKind::none}}),
+       hex_color_key(),
+       hsv_key(),
+       weights_key(),
+       number("exponent", &S::exponent, above_to(0, 8)),
+       number("threshold", &S::max_distance, {.low = 1e-4, .infinite = true}, "weighted colour distance"),
+       flag("forbids", &S::forbids),
+       min_max("height_m", &S::height_m, within(0.001, 200), "metres"),
+       min_max("width_m", &S::width_m, within(0.00001, 200), "metres"),
+       min_max("stiffness", &S::stiffness, within(0, 1)),
+       angle("lean_deg", &S::lean, within(0, 90)),
+       number("phototropism", &S::phototropism, within(0, 1)),
+       whole_number("segments", &S::max_segments, within(1, 64)),
+       triple("tint", &S::tint, within(0, 10000)),
+       triple("age_tint", &S::age_tint, within(0, 10000)),
+       number("age_share", &S::age_share, within(0, 1)),
+       number("root_shade", &S::root_shade, within(0, 1)),
+       number("translucency", &S::translucency, within(0, 10000)),
+       number("attenuation", &S::attenuation, within(0, 10000)),
+       number("specular", &S::specular, within(0, 10000)),
+       number("shininess", &S::shininess, within(1, 10000))},
+      check_species};
+  return schema;
+}
+
+const Schema<Layer>& layer_schema() {
+  using L = Layer;
+  static const Schema<L> schema{
+      "[[layer]]",
+      {text("name", &L::name, "a word"), number("triangle_area_m2", &L::triangle_area_m2, above(0), "square metres"),
+       number("horizon_m", &L::horizon_m, above(0), "metres"),
+       whole_number("cluster_size", &L::cluster_size, within(1, k_max_cluster_size)),
+       choice<L, DensityLaw>("law", &L::law,
+                             {{"distance", DensityLaw::distance},
+                              {"screen_area", DensityLaw::screen_area},
+                              {"world_area", DensityLaw::world_area}}),
+       number("density", &L::density, above(0), "plants a square metre or a unit of screen area"),
+       number("full_distance_m", &L::full_distance_m, above(0), "metres"),
+       number("falloff", &L::falloff, above_to(0, 16)), whole_number("ceiling", &L::ceiling, within(1, 1048576)),
+       flag("plain", &L::plain), number("full_segments_m", &L::full_segments_m, above(0), "metres"),
+       flag("shadows", &L::shadows), number("shadow_distance_m", &L::shadow_distance_m, at_least(0), "metres"),
+       tables<L, Species>("species", &L::species, species_schema())},
+      check_layer};
+  return schema;
+}
+
+const Schema<Scene>& scene_schema() {
+  static const Schema<Scene> schema{
+      "the scene",
+      {text("name", &Scene::name, "a word"), section("terrain", terrain_schema()),
+       section("base_map", base_map_schema()), section("sun", sun_schema()), section("haze", haze_schema()),
+       section("camera", camera_schema()), tables<Scene, Layer>("layer", &Scene::layers, layer_schema())},
+      check_scene};
+  return schema;
+}
+
+}  // namespace sward::scene_file

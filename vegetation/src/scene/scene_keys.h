@@ -1,0 +1,22 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sward/scene/scene.h>
+
+#include "scene/scene_schema.h"
+
+namespace sward::scene_file {
+
+// Every key of a scene file. docs/scene_format.md lists the same, which a test checks.
+const Schema<Scene>& scene_schema();
+const Schema<Scene>& terrain_schema();
+const Schema<ReliefOptions>& relief_schema();
+const Schema<Scene>& base_map_schema();
+const Schema<Scene>& sun_schema();
+const Schema<Scene>& haze_schema();
+const Schema<Scene>& camera_schema();
+const Schema<Layer>& layer_schema();
+const Schema<Species>& species_schema();
+
+}  // namespace sward::scene_file
