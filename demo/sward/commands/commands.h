@@ -1,0 +1,26 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sward/terrain/error.h>
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace sward::tool {
+
+/// A subcommand that has been declared: what CLI11 parses into, and what to do then.
+struct Command {
+  CLI::App* app = nullptr;
+  std::function<Expected<void>()> run;
+};
+
+Command add_render(CLI::App& parent);
+Command add_fly(CLI::App& parent);
+Command add_mesh(CLI::App& parent);
+Command add_plants(CLI::App& parent);
+Command add_info(CLI::App& parent);
+#ifdef SWARD_WINDOW
+Command add_view(CLI::App& parent);
+#endif
+
+}  // namespace sward::tool

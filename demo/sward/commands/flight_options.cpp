@@ -1,0 +1,52 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+#include "sward/commands/flight_options.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "host/scene_renderer.h"
+#include "sward/arguments.h"
+
+namespace sward::tool {
+
+void add_path_options(CLI::App& app, PathOptions& options) {
+  app.add_option("--flight", options.flight, "Camera path: the built-in one, or a CSV file with one row a frame")
+      ->type_name("paper|FILE.csv")
+      ->capture_default_str();
+  app.add_option("--seconds", options.seconds, "Only so much of the path")->type_name("SECONDS");
+  app.add_option("--fps", options.fps, "Frames a second of paths without times")->type_name("N")->capture_default_str();
+}
+
+Expected<void> check_path(const PathOptions& options) {
+  if (!(options.fps > 0 && options.fps <= 10000)) return fail("--fps must be above 0 and at most 10000");
+  if (options.seconds && !(*options.seconds > 0 && std::isfinite(*options.seconds)))
+    return fail("--seconds must be a finite number above 0");
+  if (options.flight == "paper" && options.seconds.value_or(1) > host::k_paper_flight_s)
+    return fail("the paper flight is 30 s long; --seconds must be at most 30");
+  std::error_code ignored;
+  if (options.flight != "paper" && !std::filesystem::is_regular_file(options.flight, ignored))
+    return fail(options.flight + ": there is no such flight; name a CSV file or the built-in \"paper\"");
+  auto size = parse_size(options.size);
+  return size ? check_size(*size) : tl::unexpected(size.error());
+}
+
+Expected<std::vector<host::FlightFrame>> make_path(const PathOptions& options, const HeightField& field) {
+  auto size = parse_size(options.size);
+  if (!size) return tl::unexpected(size.error());
+  host::FlightOptions path;
+  path.fps = options.fps;
+  path.viewport = *size;
+  path.near_plane = host::k_near_plane_m;
+  path.far_plane = host::far_plane_m(field);
+  if (options.flight == "paper")
+    return host::paper_flight(field, options.seconds.value_or(host::k_paper_flight_s), path);
+  auto frames = host::load_flight(options.flight, path);
+  if (!frames || !options.seconds) return frames;
+  const double end = frames->front().time_s + *options.seconds;
+  std::erase_if(*frames, [end](const host::FlightFrame& frame) { return frame.time_s >= end; });
+  return frames;
+}
+
+}  // namespace sward::tool

@@ -1,0 +1,27 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+
+#include "host/flight.h"
+
+namespace sward::tool {
+
+/// The options that name a camera path.
+struct PathOptions {
+  std::string flight = "paper";   ///< "paper" or a CSV file.
+  std::optional<double> seconds;  ///< Cuts the path off; empty: all of it.
+  double fps = 60;
+  std::string size = "1920x1080";  ///< Viewport of paths that have none.
+};
+
+void add_path_options(CLI::App& app, PathOptions& options);
+
+/// Checks the numbers that need no field: call it before long work.
+Expected<void> check_path(const PathOptions& options);
+/// Loads or computes the frames over the field.
+Expected<std::vector<host::FlightFrame>> make_path(const PathOptions& options, const HeightField& field);
+
+}  // namespace sward::tool

@@ -1,0 +1,179 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host/egl_context.h"
+#include "host/render_target.h"
+#include "sward/arguments.h"
+#include "sward/commands/commands.h"
+#include "sward/commands/flight_options.h"
+#include "sward/output/figures.h"
+#include "sward/output/files.h"
+#include "sward/output/plot.h"
+#include "sward/output/progress.h"
+#include "sward/output/video.h"
+#include "sward/scene_options.h"
+
+namespace sward::tool {
+
+namespace {
+
+struct FlyOptions {
+  SceneOptions scene;
+  PathOptions path;
+  std::string samples = "max", csv, summary, plots, video;
+  bool no_plants = false;
+};
+
+Expected<void> check(const FlyOptions& options) {
+  auto samples = parse_samples(options.samples);
+  if (!samples) return tl::unexpected(samples.error());
+  if (*samples < 0) return fail("--samples must be 1 or more, or max");
+  for (const std::string& path : {options.csv, options.summary, options.video})
+    if (auto checked = check_output(path); !checked) return checked;
+  if (!options.plots.empty())
+    if (auto checked = check_output_folder(options.plots); !checked) return checked;
+  if (!options.video.empty() && find_program("ffmpeg").empty())
+    return fail("--video needs ffmpeg, which is not in PATH; install it or leave --video out");
+  return check_path(options.path);
+}
+
+Expected<void> check_viewports(const std::vector<host::FlightFrame>& frames, glm::ivec2 size) {
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const glm::ivec2 viewport = frames[i].view.viewport;
+    if (viewport != size)
+      return fail("frame " + std::to_string(i) + " of the flight has a viewport of " + std::to_string(viewport.x) +
+                  "x" + std::to_string(viewport.y) + ", but pictures are " + std::to_string(size.x) + "x" +
+                  std::to_string(size.y) + "; name that size with --size");
+  }
+  return {};
+}
+
+struct Flown {
+  std::vector<FrameFigures> frames;
+  glm::ivec2 size{0};
+  int samples = 1;
+};
+
+// The first frame is drawn once before the clock runs: it builds the mesh from its roots and makes the driver compile,
+// which no later frame does.
+Expected<Flown> fly_frames(const FlyOptions& options, const Scene& scene, const std::vector<host::FlightFrame>& path,
+                           host::RenderTarget& target, host::SceneRenderer& renderer) {
+  Flown flown{{}, target.size(), target.samples()};
+  std::optional<VideoPipe> video;
+  if (!options.video.empty()) {
+    auto opened = VideoPipe::open(options.video, target.size(), options.path.fps);
+    if (!opened) return tl::unexpected(opened.error());
+    video.emplace(std::move(*opened));
+  }
+  const gl::Lighting lighting = make_lighting(scene);
+  ProgressLine progress("flying");
+  const auto draw = [&](const host::FlightFrame& frame) {
+    target.begin();
+    auto stats = renderer.draw(frame.view, lighting, frame.time_s, target.framebuffer(), target.samples(), true);
+    glFinish();
+    return stats;
+  };
+  if (auto warmed = draw(path.front()); !warmed) return tl::unexpected(warmed.error());
+  for (const host::FlightFrame& frame : path) {
+    const auto begin = std::chrono::steady_clock::now();
+    auto stats = draw(frame);
+    const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - begin;
+    if (!stats) return tl::unexpected(stats.error());
+    const size_t plants = options.no_plants ? 0 : renderer.plants_cpu(frame.view).size();
+    flown.frames.push_back(make_figures(*stats, frame.time_s, spent.count(), plants));
+    if (video)
+      if (auto written = video->write(target.read_rgb()); !written) return tl::unexpected(written.error());
+    progress.show(float(flown.frames.size()) / float(path.size()));
+  }
+  if (video)
+    if (auto finished = video->finish(); !finished) return tl::unexpected(finished.error());
+  return flown;
+}
+
+std::string summary_text(const Flown& flown) {
+  nlohmann::ordered_json json;
+  json["frames"] = flown.frames.size();
+  json["width"] = flown.size.x;
+  json["height"] = flown.size.y;
+  json["samples"] = flown.samples;
+  json["gl_renderer"] = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  for (const FigureColumn& column : figure_columns())
+    json[std::string(column.name)] = summary_json(flown.frames, column);
+  return json.dump(2) + "\n";
+}
+
+void print_result(const Flown& flown) {
+  std::vector<double> times;
+  for (const FrameFigures& frame : flown.frames) times.push_back(*frame.frame_ms);
+  const Summary summary = summarise(std::move(times));
+  std::printf("%zu frames of %dx%d at %d samples: median %.2f ms, p95 %.2f ms, max %.2f ms\n", flown.frames.size(),
+              flown.size.x, flown.size.y, flown.samples, summary.median, summary.p95, summary.max);
+}
+
+Expected<void> fly(FlyOptions options, bool size_given) {
+  if (auto checked = check(options); !checked) return checked;
+  auto scene = make_scene(options.scene);
+  if (!scene) return tl::unexpected(scene.error());
+  auto context = host::EglContext::create(false);
+  if (!context) return tl::unexpected(context.error());
+  auto samples = parse_samples(options.samples);
+  auto size = parse_size(options.path.size);
+  // Refuses more samples than the device has before the terrain is made.
+  if (auto tried = host::RenderTarget::create({1, 1}, *samples); !tried) return tl::unexpected(tried.error());
+  auto terrain = make_terrain(*scene, options.scene);
+  if (!terrain) return tl::unexpected(terrain.error());
+  auto path = make_path(options.path, (*terrain)->field);
+  if (!path) return tl::unexpected(path.error());
+  if (!size_given) *size = path->front().view.viewport;
+  if (auto checked = check_viewports(*path, *size); !checked) return checked;
+  auto target = host::RenderTarget::create(*size, *samples);
+  if (!target) return tl::unexpected(target.error());
+  auto renderer = host::SceneRenderer::create(*scene, **terrain, gl::ShaderLibrary());
+  if (!renderer) return tl::unexpected(renderer.error());
+  renderer->set_vegetation(!options.no_plants);
+
+  auto flown = fly_frames(options, *scene, *path, *target, *renderer);
+  if (!flown) return tl::unexpected(flown.error());
+  if (!options.csv.empty())
+    if (auto written = write_file(options.csv, figures_csv(flown->frames)); !written) return written;
+  if (!options.summary.empty())
+    if (auto written = write_file(options.summary, summary_text(*flown)); !written) return written;
+  if (!options.plots.empty())
+    if (auto written = write_plots(options.plots, flown->frames); !written) return written;
+  print_result(*flown);
+  return {};
+}
+
+}  // namespace
+
+Command add_fly(CLI::App& parent) {
+  auto options = std::make_shared<FlyOptions>();
+  CLI::App* app = parent.add_subcommand("fly", "Fly a camera path without a display and measure every frame");
+  app->footer(
+      "frame_ms runs from the first call to the GPU's last, with nothing of the next frame overlapped. The first\n"
+      "frame is drawn once before the clock runs. plants are counted outside of the clock.");
+  add_scene_options(*app, options->scene, true);
+  add_sun_option(*app, options->scene);
+  add_path_options(*app, options->path);
+  CLI::Option* size = app->add_option("--size", options->path.size, "Pixels")
+                          ->type_name("WxH")
+                          ->check(as_check(parse_size))
+                          ->capture_default_str();
+  app->add_option("--samples", options->samples, "Samples a pixel, or max")
+      ->type_name("N|max")
+      ->check(as_check(parse_samples))
+      ->capture_default_str();
+  app->add_flag("--no-plants", options->no_plants, "Terrain and sky alone");
+  app->add_option("--csv", options->csv, "One row of figures a frame")->type_name("FILE");
+  app->add_option("--summary", options->summary, "Median, mean, p95, p99, max of every figure as JSON")
+      ->type_name("FILE");
+  app->add_option("--plots", options->plots, "Folder for line plots (SVG)")->type_name("DIR");
+  app->add_option("--video", options->video, "Video through ffmpeg")->type_name("FILE.mp4");
+  return {app, [options, size] { return fly(*options, size->count() > 0); }};
+}
+
+}  // namespace sward::tool

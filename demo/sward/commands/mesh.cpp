@@ -1,0 +1,165 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+
+#include "host/scene_frame.h"
+#include "sward/commands/commands.h"
+#include "sward/commands/flight_options.h"
+#include "sward/output/figures.h"
+#include "sward/output/files.h"
+#include "sward/output/ply.h"
+#include "sward/output/progress.h"
+#include "sward/scene_options.h"
+
+namespace sward::tool {
+
+namespace {
+
+struct MeshOptions {
+  SceneOptions scene;
+  PathOptions path;
+  std::string timings, output;
+  std::optional<size_t> at;
+  float target_px = 0;
+  bool all = false, no_morph = false, plain = false;
+};
+
+struct MeshRow {
+  double update_ms = 0, fixed_level_ms = 0;
+  RoamStats roam;
+  float bound_px = 0;
+  uint32_t fixed_triangles = 0;
+};
+
+// Stands for a renderer's buffers: what an upload would write is written here.
+class SlotBuffer {
+ public:
+  void write(const RoamMesh& mesh) {
+    const std::span<const RoamVertex> slots = mesh.vertices();
+    const bool whole = mesh.all_vertices_changed() || vertices_.size() < slots.size();
+    if (vertices_.size() < slots.size()) vertices_.resize(slots.size() + slots.size() / 2);
+    if (whole)
+      std::copy(slots.begin(), slots.end(), vertices_.begin());
+    else
+      for (const uint32_t slot : mesh.changed_vertices()) vertices_[slot] = slots[slot];
+    const std::span<const uint32_t> indices = mesh.visible_indices();
+    indices_.assign(indices.begin(), indices.end());
+  }
+
+ private:
+  std::vector<RoamVertex> vertices_;
+  std::vector<uint32_t> indices_;
+};
+
+double ms_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+Expected<MeshRow> run_frame(const View& view, host::SceneFrame& frame, SlotBuffer& buffer) {
+  MeshRow row;
+  const auto update_begin = std::chrono::steady_clock::now();
+  auto stats = frame.mesh().update(view);
+  if (!stats) return tl::unexpected(stats.error());
+  buffer.write(frame.mesh());
+  row.update_ms = ms_since(update_begin);
+  row.roam = *stats;
+  const auto cut_begin = std::chrono::steady_clock::now();
+  row.fixed_triangles = frame.cut_triangles(view);
+  row.fixed_level_ms = ms_since(cut_begin);
+  row.bound_px = frame.mesh().bound_px();
+  return row;
+}
+
+std::string timings_csv(const std::vector<MeshRow>& rows) {
+  std::string csv = "frame,update_ms,fixed_level_ms,visible,splits,merges,bound_px,fixed_triangles\n";
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const MeshRow& row = rows[i];
+    csv += std::to_string(i);
+    for (const double value : {row.update_ms, row.fixed_level_ms, double(row.roam.visible), double(row.roam.splits),
+                               double(row.roam.merges), double(row.bound_px), double(row.fixed_triangles)})
+      csv += "," + figure_text(value);
+    csv += '\n';
+  }
+  return csv;
+}
+
+void print_result(const std::vector<MeshRow>& rows) {
+  std::vector<double> updates;
+  uint32_t visible = 0;
+  for (const MeshRow& row : rows) {
+    updates.push_back(row.update_ms);
+    visible = std::max(visible, row.roam.visible);
+  }
+  const Summary summary = summarise(std::move(updates));
+  std::printf("%zu frames: update median %.3f ms, p95 %.3f ms, max %.3f ms; at most %u triangles visible\n",
+              rows.size(), summary.median, summary.p95, summary.max, visible);
+}
+
+Expected<void> mesh(const MeshOptions& options) {
+  if (auto checked = check_output(options.timings); !checked) return checked;
+  if (auto checked = check_output(options.output); !checked) return checked;
+  if (auto checked = check_path(options.path); !checked) return checked;
+  auto scene = make_scene(options.scene);
+  if (!scene) return tl::unexpected(scene.error());
+  auto terrain = make_terrain(*scene, options.scene);
+  if (!terrain) return tl::unexpected(terrain.error());
+  auto path = make_path(options.path, (*terrain)->field);
+  if (!path) return tl::unexpected(path.error());
+  if (options.at && *options.at >= path->size())
+    return fail("--at " + std::to_string(*options.at) + ": the flight has frames 0 to " +
+                std::to_string(path->size() - 1));
+
+  RoamOptions roam;
+  roam.max_triangles = scene->max_triangles;
+  roam.target_px = options.target_px > 0 ? options.target_px : scene->target_px;
+  if (options.plain) roam.hysteresis = 0;
+  auto frame = host::SceneFrame::create(scene->layers, (*terrain)->bounds, roam);
+  if (!frame) return tl::unexpected(frame.error());
+  // Timings want the whole flight; a mesh alone only what leads to its frame.
+  const size_t count = options.timings.empty() && options.at ? *options.at + 1 : path->size();
+  SlotBuffer buffer;
+  std::vector<MeshRow> rows;
+  std::string ply;
+  ProgressLine progress("mesh");
+  for (size_t i = 0; i < count; ++i) {
+    auto row = run_frame((*path)[i].view, *frame, buffer);
+    if (!row) return fail("frame " + std::to_string(i) + ": " + row.error().message);
+    rows.push_back(*row);
+    if (options.at == i) {
+      const RoamMesh& roam_mesh = frame->mesh();
+      ply =
+          options.all ? make_ply(roam_mesh, roam_mesh.all_indices()) : make_ply(roam_mesh, roam_mesh.visible_indices());
+    }
+    progress.show(float(i + 1) / float(count));
+  }
+  if (!options.timings.empty())
+    if (auto written = write_file(options.timings, timings_csv(rows)); !written) return written;
+  if (auto written = write_file(options.output, ply); !written) return written;
+  print_result(rows);
+  return {};
+}
+
+}  // namespace
+
+Command add_mesh(CLI::App& parent) {
+  auto options = std::make_shared<MeshOptions>();
+  CLI::App* app = parent.add_subcommand("mesh", "Run the terrain mesh alone over a camera path, without GL");
+  add_scene_options(*app, options->scene, false);
+  add_path_options(*app, options->path);
+  app->add_option("--target-px", options->target_px, "Stop refining when the bound is this small; 0: use the budget")
+      ->type_name("PX");
+  app->add_option("--timings", options->timings, "One row a frame (CSV)")->type_name("FILE");
+  CLI::Option* at = app->add_option("--at", options->at, "Frame whose mesh is written")->type_name("FRAME");
+  CLI::Option* output = app->add_option("-o,--output", options->output, "Mesh (PLY)")->type_name("FILE");
+  at->needs(output);
+  output->needs(at);
+  app->add_flag("--all", options->all, "All leaves, not only the visible ones")->needs(output);
+  app->add_flag("--no-morph", options->no_morph, "Vertices stand at their final height at once");
+  app->add_flag("--plain", options->plain, "As published in 1997: no hysteresis, no morph");
+  return {app, [options] { return mesh(*options); }};
+}
+
+}  // namespace sward::tool

@@ -1,0 +1,131 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+#include "sward/scene_options.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "sward/arguments.h"
+#include "sward/output/progress.h"
+
+namespace sward::tool {
+
+namespace {
+
+Expected<Scene> read_scene(const std::string& name) {
+  if (name.empty()) return builtin_scene("meadow");
+  std::error_code ignored;
+  // A bare word that is no file can only mean a built-in scene, and the error then lists those.
+  const bool word = name.find_first_of("./") == std::string::npos;
+  if (word && !std::filesystem::exists(name, ignored)) return builtin_scene(name);
+  return load_scene(name);
+}
+
+// Paths on the command line are the caller's, not relative to the scene's folder.
+std::string absolute(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::absolute(path, ignored).string();
+}
+
+Expected<void> override_heights(const SceneOptions& options, Scene& scene) {
+  if (!options.height.empty()) {
+    if (!scene.generator.empty()) {
+      scene.generator.clear();
+      scene.camera = glm::dvec3(scene.origin.x, scene.origin.y, 1.7);
+      scene.camera_above_ground = true;
+    }
+    scene.height_path = absolute(options.height);
+  }
+  const bool scaled = !options.spacing.empty() || options.height_scale || options.height_offset;
+  if (scaled && scene.height_path.empty())
+    return fail(
+        "--spacing, --height-scale and --height-offset need a height map: this scene is generated; add --height");
+  if (!options.spacing.empty()) {
+    auto spacing = parse_numbers(options.spacing, 1, 2);
+    if (!spacing) return tl::unexpected(spacing.error());
+    scene.spacing = {spacing->front(), spacing->back()};
+    if (!(scene.spacing.x > 0 && scene.spacing.y > 0) || !std::isfinite(scene.spacing.x + scene.spacing.y))
+      return fail("--spacing must be metres above 0");
+  }
+  scene.height_scale = options.height_scale.value_or(scene.height_scale);
+  scene.height_offset = options.height_offset.value_or(scene.height_offset);
+  if (!std::isfinite(scene.height_scale) || !std::isfinite(scene.height_offset))
+    return fail("--height-scale and --height-offset must be finite numbers");
+  return {};
+}
+
+Expected<void> override_view(const SceneOptions& options, Scene& scene) {
+  if (!options.camera.empty()) {
+    auto camera = parse_camera(options.camera);
+    if (!camera) return tl::unexpected(camera.error());
+    scene.camera = camera->position;
+    scene.camera_above_ground = camera->above_ground;
+    scene.camera_yaw = glm::radians(camera->yaw_degrees);
+    scene.camera_pitch = glm::radians(camera->pitch_degrees);
+  }
+  if (!options.sun.empty()) {
+    auto sun = parse_numbers(options.sun, 2, 2);
+    if (!sun) return tl::unexpected(sun.error());
+    if (!std::isfinite((*sun)[0]) || !(std::abs((*sun)[1]) <= 90))
+      return fail("--sun takes a finite azimuth and an elevation from -90 to 90 degrees");
+    scene.sun_azimuth = float(glm::radians((*sun)[0]));
+    scene.sun_elevation = float(glm::radians((*sun)[1]));
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& app, SceneOptions& options, bool detail_by_default) {
+  options.detail = detail_by_default ? "on" : "off";
+  app.add_option("scene", options.scene, "Scene file (TOML) or built-in scene; default: meadow")->type_name("SCENE");
+  app.add_option("--height", options.height, "Height map instead of the scene's")->type_name("FILE");
+  app.add_option("--spacing", options.spacing, "Metres between samples, east-west[,north-south]")
+      ->type_name("M[,M]")
+      ->check(as_check([](const std::string& text) { return parse_numbers(text, 1, 2); }));
+  app.add_option("--height-scale", options.height_scale, "Metres a raw unit of the height map")->type_name("M");
+  app.add_option("--height-offset", options.height_offset, "Metres added to every height")->type_name("M");
+  app.add_option("--texture", options.texture, "Colour map instead of the scene's")->type_name("FILE");
+  app.add_option("--triangles", options.triangles, "Terrain triangle budget instead of the scene's")->type_name("N");
+  app.add_option("--detail", options.detail, "Relief below the data")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->type_name("on|off")
+      ->capture_default_str();
+}
+
+void add_camera_option(CLI::App& app, SceneOptions& options) {
+  app.add_option("--camera", options.camera,
+                 "Position in metres and angles in degrees instead of the scene's; z may be +1.7: above the ground")
+      ->type_name("x,y,z,yaw,pitch")
+      ->check(as_check(parse_camera));
+}
+
+void add_sun_option(CLI::App& app, SceneOptions& options) {
+  app.add_option("--sun", options.sun, "Degrees: azimuth (0 east, counter-clockwise) and elevation")
+      ->type_name("AZIMUTH,ELEVATION")
+      ->check(as_check([](const std::string& text) { return parse_numbers(text, 2, 2); }));
+}
+
+Expected<Scene> make_scene(const SceneOptions& options) {
+  auto scene = read_scene(options.scene);
+  if (!scene) return scene;
+  if (auto done = override_heights(options, *scene); !done) return tl::unexpected(done.error());
+  if (auto done = override_view(options, *scene); !done) return tl::unexpected(done.error());
+  if (!options.texture.empty()) scene->texture_path = absolute(options.texture);
+  scene->max_triangles = options.triangles.value_or(scene->max_triangles);
+  return scene;
+}
+
+Expected<std::unique_ptr<host::SceneTerrain>> make_terrain(const Scene& scene, const SceneOptions& options) {
+  ProgressLine line("terrain");
+  return host::load_terrain(scene, options.detail == "on", line.callback());
+}
+
+gl::Lighting make_lighting(const Scene& scene) {
+  gl::Lighting lighting = gl::Lighting::clear_day(scene.sun_azimuth, scene.sun_elevation);
+  lighting.haze_distance_m = scene.haze_distance_m;
+  return lighting;
+}
+
+}  // namespace sward::tool

@@ -1,0 +1,38 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sward/scene/scene.h>
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "host/scene_renderer.h"
+
+namespace sward::tool {
+
+/// The options that name a scene, shared by all commands that draw or measure one.
+struct SceneOptions {
+  std::string scene;  ///< A file, or the name of a built-in scene; empty: meadow.
+  std::string height, texture;
+  std::string spacing;  ///< "M" or "M,M"; empty: the scene's.
+  std::optional<double> height_scale, height_offset;
+  std::optional<uint32_t> triangles;
+  std::string camera;  ///< "x,y,z,yaw,pitch"; empty: the scene's.
+  std::string sun;     ///< "azimuth,elevation"; empty: the scene's.
+  std::string detail;  ///< "on" or "off".
+};
+
+void add_scene_options(CLI::App& app, SceneOptions& options, bool detail_by_default);
+void add_camera_option(CLI::App& app, SceneOptions& options);
+void add_sun_option(CLI::App& app, SceneOptions& options);
+
+/// Reads the scene and lays the options over it.
+Expected<Scene> make_scene(const SceneOptions& options);
+/// Loads or generates its terrain, with progress on a terminal.
+Expected<std::unique_ptr<host::SceneTerrain>> make_terrain(const Scene& scene, const SceneOptions& options);
+/// A clear day with the scene's sun and haze.
+gl::Lighting make_lighting(const Scene& scene);
+
+}  // namespace sward::tool

@@ -1,0 +1,179 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+#include <epoxy/gl.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include "sward/arguments.h"
+#include "sward/commands/commands.h"
+#include "sward/scene_options.h"
+#include "sward/viewer/panel.h"
+#include "sward/viewer/window.h"
+
+namespace sward::tool {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr int k_many_samples = 32;  // GLFW takes the nearest that the display has
+
+struct ViewOptions {
+  SceneOptions scene;
+  std::string size = "1280x720", samples = "4", shaders;
+  std::optional<int> frames;
+};
+
+WalkCamera start_camera(const Scene& scene, const host::SceneTerrain& terrain) {
+  WalkCamera camera;
+  camera.position = host::scene_view(scene, terrain, {1, 1}).eye;
+  camera.yaw = scene.camera_yaw;
+  camera.pitch = scene.camera_pitch;
+  camera.fov_y = scene.fov_y;
+  camera.walking = scene.camera_above_ground && scene.camera.z < 10;
+  if (camera.walking) camera.eye_height_m = scene.camera.z;
+  return camera;
+}
+
+PanelState start_panel(const Scene& scene) {
+  PanelState state;
+  state.sun_azimuth_degrees = glm::degrees(scene.sun_azimuth);
+  state.sun_elevation_degrees = glm::degrees(scene.sun_elevation);
+  state.haze_distance_m = scene.haze_distance_m;
+  state.max_triangles = int(scene.max_triangles);
+  state.target_px = scene.target_px;
+  state.layers = scene.layers;
+  state.layer_changed.assign(scene.layers.size(), false);
+  return state;
+}
+
+// Layers are applied when the mouse lets go: each change compiles programs.
+void apply_panel(PanelState& state, host::SceneRenderer& renderer) {
+  renderer.set_vegetation(state.vegetation);
+  if (state.budget_changed) {
+    RoamOptions roam = renderer.mesh().options();
+    roam.max_triangles = uint32_t(state.max_triangles);
+    roam.target_px = state.target_px;
+    auto set = renderer.mesh().set_options(roam);
+    state.message = set ? "" : set.error().message;
+    state.budget_changed = false;
+  }
+  if (ImGui::IsAnyItemActive()) return;
+  for (size_t i = 0; i < state.layers.size(); ++i) {
+    if (!state.layer_changed[i]) continue;
+    auto set = renderer.set_layer(i, state.layers[i]);
+    state.message = set ? "" : set.error().message;
+    state.layer_changed[i] = false;
+  }
+}
+
+void reload(const std::string& folder, host::SceneRenderer& renderer, PanelState& state) {
+  if (folder.empty()) {
+    state.message = "start with --shaders DIR to reload shaders from that folder";
+    return;
+  }
+  auto done = renderer.reload(gl::ShaderLibrary(folder));
+  state.message = done ? "shaders reloaded" : done.error().message;
+}
+
+gl::Lighting panel_lighting(const PanelState& state) {
+  gl::Lighting lighting =
+      gl::Lighting::clear_day(glm::radians(state.sun_azimuth_degrees), glm::radians(state.sun_elevation_degrees));
+  lighting.haze_distance_m = state.haze_distance_m;
+  return lighting;
+}
+
+void begin_picture(glm::ivec2 size) {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, size.x, size.y);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+Expected<void> run_window(Window& window, const ViewOptions& options, const Scene& scene,
+                          const host::SceneTerrain& terrain, host::SceneRenderer& renderer) {
+  WalkCamera camera = start_camera(scene, terrain);
+  PanelState state = start_panel(scene);
+  host::SceneFrameStats stats;
+  const Clock::time_point start = Clock::now();
+  Clock::time_point last = start;
+  for (int frame = 0; !window.closing() && frame < options.frames.value_or(frame + 1); ++frame) {
+    const Clock::time_point now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - last).count();
+    last = now;
+    window.begin_frame();
+    if (window.pressed_once(GLFW_KEY_F5)) reload(options.shaders, renderer, state);
+    if (window.pressed_once(GLFW_KEY_F) && !ImGui::GetIO().WantCaptureKeyboard) camera.walking = !camera.walking;
+    camera.move(window.camera_input(), std::min(seconds, 0.1), terrain.field);
+    draw_panel(state, camera, stats, seconds * 1000);
+    apply_panel(state, renderer);
+
+    const glm::ivec2 size = window.framebuffer_size();
+    if (size.x > 0 && size.y > 0) {
+      begin_picture(size);
+      const double time_s = std::chrono::duration<double>(now - start).count();
+      auto drawn =
+          renderer.draw(camera.view(size, terrain.field), panel_lighting(state), time_s, 0, window.samples(), false);
+      if (!drawn) return tl::unexpected(drawn.error());
+      stats = *drawn;
+    }
+    window.end_frame();
+  }
+  return {};
+}
+
+Expected<void> view(const ViewOptions& options) {
+  auto size = parse_size(options.size);
+  auto samples = parse_samples(options.samples);
+  if (auto checked = check_size(*size); !checked) return checked;
+  if (*samples < 0) return fail("--samples must be 1 or more, or max");
+  std::error_code ignored;
+  if (!options.shaders.empty() && !std::filesystem::is_directory(options.shaders, ignored))
+    return fail(options.shaders + ": there is no such folder of shaders");
+  auto scene = make_scene(options.scene);
+  if (!scene) return tl::unexpected(scene.error());
+  auto window = Window::open("sward - " + scene->name, *size, *samples == 0 ? k_many_samples : *samples);
+  if (!window) return tl::unexpected(window.error());
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_SAMPLES, &most);
+  if (*samples > most)
+    return fail("--samples " + std::to_string(*samples) + ": this device has at most " + std::to_string(most));
+  auto terrain = make_terrain(*scene, options.scene);
+  if (!terrain) return tl::unexpected(terrain.error());
+  auto renderer = host::SceneRenderer::create(*scene, **terrain, gl::ShaderLibrary(options.shaders));
+  if (!renderer) return tl::unexpected(renderer.error());
+  return run_window(*window, options, *scene, **terrain, *renderer);
+}
+
+}  // namespace
+
+Command add_view(CLI::App& parent) {
+  auto options = std::make_shared<ViewOptions>();
+  CLI::App* app = parent.add_subcommand("view", "Walk and fly through a scene in a window");
+  add_scene_options(*app, options->scene, true);
+  add_camera_option(*app, options->scene);
+  add_sun_option(*app, options->scene);
+  app->add_option("--size", options->size, "Pixels")
+      ->type_name("WxH")
+      ->check(as_check(parse_size))
+      ->capture_default_str();
+  app->add_option("--samples", options->samples, "Samples a pixel")
+      ->type_name("N|max")
+      ->check(as_check(parse_samples))
+      ->capture_default_str();
+  app->add_option("--shaders", options->shaders, "Folder that F5 reloads shaders from")->type_name("DIR");
+  app->add_option("--frames", options->frames, "Close after so many frames")->type_name("N");
+  return {app, [options] { return view(*options); }};
+}
+
+}  // namespace sward::tool
