@@ -14,11 +14,11 @@ struct GroundDetail {
   vec2 slope;    // dz/dx, dz/dy of clods and grains
 };
 
-// Metres of ground that a pixel covers, along the view where it is longest.
+// Metres of ground that a pixel covers: between its width and its length along the view.
 float ground_footprint(vec3 relative_position, vec3 normal) {
   float distance = max(length(relative_position), 1.0e-3);
   float facing = abs(dot(normal, relative_position)) / distance;
-  return distance / (frame.focal.x * max(facing, 0.06));
+  return distance / (frame.focal.x * pow(max(facing, 0.02), 0.6));
 }
 
 // Weight of an octave: full while a cell spans four pixels, nothing below two.
@@ -30,15 +30,15 @@ GroundDetail ground_detail(vec3 relative_position, vec3 normal) {
   GroundDetail detail;
   float broad = ground_noise(p, 0.03125, 1u).x * octave_weight(0.03125, footprint);
   float patches = ground_noise(p, 0.125, 2u).x * octave_weight(0.125, footprint);
-  detail.shade = 1.0 + 0.12 * broad + 0.16 * patches;
-  detail.litter = 0.5 * broad + 0.9 * patches;
+  detail.shade = 1.0 + 0.15 * broad + 0.22 * patches;
+  detail.litter = 0.6 * broad + 0.9 * patches;
   detail.warp = vec2(0.0);
   detail.slope = vec2(0.0);
 
   // Octaves from half a metre to two centimetres: amplitudes of brightness, of height (m).
   float cells = 0.5;
-  float height = 0.05;
-  float grain = 0.20;
+  float height = 0.08;
+  float grain = 0.36;
   for (uint i = 0u; i < 6u; ++i) {
     float weight = octave_weight(cells, footprint);
     if (weight > 0.0) {

@@ -53,14 +53,16 @@ vec3 srgb_encode(vec3 linear) {
   return mix(low, high, greaterThan(linear, vec3(0.0031308)));
 }
 
-// Exposure, tone curve and sRGB encoding where the frame asks for encoded colours; else the radiance as it is. The curve
-// is linear in the shadows and saturates exponentially; half of it acts on luminance, so that bright greens keep their
-// hue, half on each channel, so that the very bright turns white.
+// Contrast in the shadows, then a shoulder that never clips.
+vec3 tone_curve(vec3 x) { return 1.0 - exp(-1.15 * x * x / (x + 0.03)); }
+
+// Exposure, tone curve and sRGB encoding where the frame asks for encoded colours; else the radiance as it is. Half of
+// the curve acts on luminance, so that bright greens keep their hue, half on each channel, so that the very bright turns
+// white.
 vec3 encode_output(vec3 linear) {
   if (frame.sky_radiance.w != 1.0) return linear;
   vec3 exposed = max(linear, vec3(0.0)) * frame.sun_radiance.w;
   float luminance = max(dot(exposed, vec3(0.2126, 0.7152, 0.0722)), 1.0e-6);
-  vec3 by_channel = 1.0 - exp(-exposed);
-  vec3 by_luminance = exposed * ((1.0 - exp(-luminance)) / luminance);
-  return srgb_encode(clamp(mix(by_channel, by_luminance, 0.5), 0.0, 1.0));
+  vec3 by_luminance = exposed * (tone_curve(vec3(luminance)).x / luminance);
+  return srgb_encode(clamp(mix(tone_curve(exposed), by_luminance, 0.5), 0.0, 1.0));
 }

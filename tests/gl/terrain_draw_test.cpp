@@ -95,13 +95,14 @@ double decode(double code) {
   return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
 }
 
-/// The documented output: exposure, then half of the exponential curve a channel and half on luminance, then sRGB.
+/// The documented output: exposure, then half of the tone curve a channel and half on luminance, then sRGB.
 glm::dvec3 expected_code(const gl::Lighting& light, glm::dvec3 radiance) {
+  const auto curve = [](double x) { return 1 - std::exp(-1.15 * x * x / (x + 0.03)); };
   const glm::dvec3 exposed = radiance * double(light.exposure);
   const double luminance = 0.2126 * exposed.r + 0.7152 * exposed.g + 0.0722 * exposed.b;
   glm::dvec3 code;
   for (int i = 0; i < 3; ++i) {
-    const double mapped = 0.5 * (1 - std::exp(-exposed[i])) + 0.5 * exposed[i] * (1 - std::exp(-luminance)) / luminance;
+    const double mapped = 0.5 * curve(exposed[i]) + 0.5 * exposed[i] * curve(luminance) / luminance;
     code[i] = 255 * (mapped <= 0.0031308 ? 12.92 * mapped : 1.055 * std::pow(mapped, 1 / 2.4) - 0.055);
   }
   return code;

@@ -13,7 +13,7 @@ namespace sward::gl {
 class GroundTextures {
  public:
   /// Uploads copies; the arguments may go away afterwards. Fails when a map exceeds the device's texture size or the
-  /// base map does not validate. Leaves all state as it was. Cost: a few hundred ms for maps of 8192 x 8192.
+  /// base map does not validate. Filters are anisotropic where the device has that in hardware. Leaves all state as it was. Cost: a few hundred ms for maps of 8192 x 8192.
   static Expected<GroundTextures> create(const HeightField& field, const ColorMap& colors);
 
   GLuint base_map() const { return base_map_.id(); }          ///< SRGB8_ALPHA8, trilinear, clamped
