@@ -46,10 +46,10 @@ void SceneFrame::seed_triangles(const View& view, const ColorMap& colors) {
   for (LayerFrame& each : layers_) seed(each.layer, view, colors, each.triangles, each.seeding);
 }
 
-std::vector<Plant> SceneFrame::plants(const View& view, const ColorMap& colors) const {
+std::vector<Plant> SceneFrame::plants(const View& view, const ColorMap& colors, float sun_azimuth) const {
   std::vector<Plant> all;
   for (const LayerFrame& each : layers_) {
-    std::vector<Plant> grown = grow_plants(each.layer, view, colors, each.triangles, each.seeding);
+    std::vector<Plant> grown = grow_plants(each.layer, view, colors, each.triangles, each.seeding, sun_azimuth);
     for (Plant& plant : grown) plant.species += each.first_species;
     all.insert(all.end(), grown.begin(), grown.end());
   }

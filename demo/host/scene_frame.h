@@ -36,8 +36,8 @@ class SceneFrame {
   uint32_t cut_triangles(const View& view);
   /// Seeds the cut triangles.
   void seed_triangles(const View& view, const ColorMap& colors);
-  /// The CPU twin's plants of all layers; Plant::species counts on from layer to layer.
-  std::vector<Plant> plants(const View& view, const ColorMap& colors) const;
+  /// The CPU twin's plants of all layers; Plant::species counts on from layer to layer. `sun_azimuth` in radians.
+  std::vector<Plant> plants(const View& view, const ColorMap& colors, float sun_azimuth) const;
 
  private:
   explicit SceneFrame(RoamMesh mesh) : mesh_(std::move(mesh)) {}

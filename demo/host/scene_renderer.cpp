@@ -58,6 +58,7 @@ struct SceneRenderer::Impl {
   Programs programs;
   GpuTimer terrain_timer, classify_timer, grow_timer;
   bool vegetation_on = true, sky_on = true;
+  float sun_azimuth = 0;  // of the last frame
 
   Expected<void> draw_vegetation(const View& view, GLuint framebuffer, SceneFrameStats& stats);
   void gather(bool wait, SceneFrameStats& stats);
@@ -132,6 +133,7 @@ Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighti
   self.programs.terrain.upload(self.cpu.mesh());
   stats.cpu_roam_ms = ms_since(begin);
 
+  self.sun_azimuth = lighting.sun_azimuth;
   self.frame.upload(view, lighting, time_s, samples);
   self.terrain_timer.begin();
   self.programs.terrain.draw(view, self.frame, self.ground);
@@ -180,7 +182,7 @@ const std::vector<Layer>& SceneRenderer::layers() const {
 }
 
 std::vector<Plant> SceneRenderer::plants_cpu(const View& view) const {
-  return impl_->cpu.plants(view, impl_->terrain.colors);
+  return impl_->cpu.plants(view, impl_->terrain.colors, impl_->sun_azimuth);
 }
 
 Expected<std::vector<Plant>> SceneRenderer::plants_gpu(const View& view, GLuint framebuffer) {

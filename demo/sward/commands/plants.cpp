@@ -48,7 +48,7 @@ Expected<std::vector<Plant>> plants_by_cpu(const Scene& scene, const host::Scene
     if (auto updated = frame->mesh().update(path[i].view); !updated) return tl::unexpected(updated.error());
   frame->cut_triangles(path[at].view);
   frame->seed_triangles(path[at].view, terrain.colors);
-  return frame->plants(path[at].view, terrain.colors);
+  return frame->plants(path[at].view, terrain.colors, scene.sun_azimuth);
 }
 
 Expected<std::vector<Plant>> plants_by_gpu(const Scene& scene, const host::SceneTerrain& terrain, const Path& path,

@@ -69,9 +69,9 @@ Expected<void> check_output(const std::string& path) {
 Expected<void> check_picture(const std::string& path) {
   const std::string extension = extension_of(path);
 #ifdef SWARD_IMAGE_IO
-  constexpr const char* k_known[] = {".ppm", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".exr"};
+  constexpr const char* k_known[] = {".ppm", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".tga"};
   if (std::find(std::begin(k_known), std::end(k_known), extension) == std::end(k_known))
-    return fail(path + ": pictures are written as .png, .ppm, .jpg, .tif, .bmp or .exr");
+    return fail(path + ": pictures are written as .png, .ppm, .jpg, .tif, .bmp or .tga");
 #else
   if (extension != ".ppm")
     return fail(path + ": this build has no image_io and writes pictures as .ppm only; name a .ppm file");
