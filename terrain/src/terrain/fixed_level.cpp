@@ -4,13 +4,13 @@
 // Section 3.1 of Papavasiliou, "Real-Time Grass (and Other Procedural Objects) on Terrain" (2015): the mesh's own
 // hierarchy is culled and cut at one level; leaves above that level are split flat. Distances to the halfspaces of the
 // frustum are linear, so below a leaf they are interpolated like the coordinates.
-#include "terrain/fixed_level.h"
+#include "fixed_level.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "terrain/roam_projection.h"
+#include "roam_projection.h"
 
 namespace sward::roam {
 

@@ -4,7 +4,7 @@
 
 #include <sward/terrain/fixed_triangles.h>
 
-#include "terrain/roam_tree.h"
+#include "roam_tree.h"
 
 namespace sward::roam {
 

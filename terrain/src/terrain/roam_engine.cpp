@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // State of the mesh and the operations that keep it consistent; roam_refine.cpp decides which operations are made.
-#include "terrain/roam_engine.h"
+#include "roam_engine.h"
 
 #include <cmath>
 #include <string>

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "terrain/roam_projection.h"
-#include "terrain/roam_queue.h"
-#include "terrain/roam_tree.h"
+#include "roam_projection.h"
+#include "roam_queue.h"
+#include "roam_tree.h"
 
 namespace sward::roam {
 
@@ -78,6 +78,7 @@ class RoamEngine {
   bool make_room(uint32_t node);
   bool fits(const Chain& chain) const;
   void shrink_to_budget();
+  void count_merge(uint32_t node);
   void trim_below_target();
   bool out_of_time();
   Ghost ghost(uint32_t node) const;

@@ -3,13 +3,26 @@
 
 #include <sward/terrain/roam_mesh.h>
 
-#include "terrain/fixed_level.h"
-#include "terrain/roam_engine.h"
+#include <atomic>
+
+#include "fixed_level.h"
+#include "roam_engine.h"
 
 namespace sward {
 
+namespace {
+
+/// First revision of a mesh: meshes are 2^40 updates apart.
+uint64_t first_revision() {
+  static std::atomic<uint64_t> meshes{0};
+  return (++meshes << 40) + 1;
+}
+
+}  // namespace
+
 struct RoamMesh::Impl {
   roam::RoamEngine engine;
+  uint64_t revision = first_revision();
 };
 
 Expected<RoamMesh> RoamMesh::create(const Bounds& bounds, const RoamOptions& options) {
@@ -24,7 +37,13 @@ RoamMesh& RoamMesh::operator=(RoamMesh&&) noexcept = default;
 RoamMesh::~RoamMesh() = default;
 
 Expected<RoamStats> RoamMesh::update(const View& view) {
-  return impl_->engine.update(view);
+  Expected<RoamStats> stats = impl_->engine.update(view);
+  if (stats) ++impl_->revision;
+  return stats;
+}
+
+uint64_t RoamMesh::revision() const {
+  return impl_->revision;
 }
 
 Expected<void> RoamMesh::set_options(const RoamOptions& options) {

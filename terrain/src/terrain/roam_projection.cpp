@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
-#include "terrain/roam_projection.h"
+#include "roam_projection.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
-#include "terrain/roam_queue.h"
+#include "roam_queue.h"
 
 #include <sward/terrain/roam_mesh.h>
 

@@ -15,13 +15,13 @@
 // the number of operations ends the loop.
 #include <cmath>
 
-#include "terrain/roam_engine.h"
+#include "roam_engine.h"
 
 namespace sward::roam {
 
 namespace {
 
-// Leaves above twice the budget and the roots that narrow views may need for the sides of their deepest triangles.
+// Leaves, above twice the budget and the roots, that narrow views may need for the sides of their deepest triangles.
 constexpr uint32_t k_spare_leaves = 4096;
 constexpr uint32_t k_operations_between_clock_reads = 16;
 
@@ -104,9 +104,7 @@ bool RoamEngine::make_room(uint32_t node) {
     if (pays) victim = lowest;
   }
   if (victim == k_none) return false;
-  merge(victim);
-  ++stats_.merges;
-  ++operations_;
+  count_merge(victim);
   shrink_to_budget();
   return true;
 }
@@ -117,10 +115,19 @@ void RoamEngine::shrink_to_budget() {
     uint32_t victim = merge_queue_.lowest(links_);
     if (victim == k_none) victim = merge_queue_.unprioritised();
     if (victim == k_none) return;  // the root mesh, which no budget is below
-    merge(victim);
-    ++stats_.merges;
-    ++operations_;
+    count_merge(victim);
   }
+  while (tree_.leaf_count() > leaf_limit(options_, tree_.root_count())) {
+    const uint32_t victim = merge_queue_.unprioritised();
+    if (victim == k_none || int64_t(visible_count()) - merge_gain(victim) > int64_t(options_.max_triangles)) return;
+    count_merge(victim);
+  }
+}
+
+void RoamEngine::count_merge(uint32_t node) {
+  merge(node);
+  ++stats_.merges;
+  ++operations_;
 }
 
 // With a target in pixels, what is finer than it by more than the hysteresis is given up.
@@ -133,9 +140,7 @@ void RoamEngine::trim_below_target() {
       if (victim == k_none || links_.key[victim] * (1 + options_.hysteresis) >= options_.target_px) return;
     }
     if (int64_t(visible_count()) - merge_gain(victim) > int64_t(options_.max_triangles)) return;
-    merge(victim);
-    ++stats_.merges;
-    ++operations_;
+    count_merge(victim);
   }
 }
 

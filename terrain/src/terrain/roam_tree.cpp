@@ -3,7 +3,7 @@
 
 // The triangle bintree of Duchaineau et al., "ROAMing Terrain" (1997), sections 3 and 4: diamonds, forced splits,
 // merges. Forced splits are gathered into a chain first, so that their cost is known before anything changes.
-#include "terrain/roam_tree.h"
+#include "roam_tree.h"
 
 #include <algorithm>
 

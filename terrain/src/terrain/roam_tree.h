@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "terrain/roam_queue.h"
+#include "roam_queue.h"
 
 namespace sward::roam {
 

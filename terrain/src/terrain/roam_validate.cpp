@@ -4,7 +4,7 @@
 // The structural check of a mesh: everything that the other files keep up step by step is derived again from ids.
 #include <string>
 
-#include "terrain/roam_engine.h"
+#include "roam_engine.h"
 
 namespace sward::roam {
 
