@@ -53,9 +53,13 @@ Field grow(const Layer& layer, const ColorMap& map, const View& view) {
   return field;
 }
 
+/// Where maps begin: their texels' borders do not run along the triangles' edges, which are multiples of 2 m.
+constexpr glm::dvec2 k_map_corner(0.9, -0.7 - k_side);
+
 /// Patches of the three colours, 4 m wide.
 ColorMap patchwork() {
   ColorMap map = test::plain_map(k_side, 256, k_green);
+  map.min_corner = k_map_corner;
   for (int row = 0; row < 256; ++row) {
     for (int column = 0; column < 256; ++column) {
       const int patch = (column / 8 + 2 * (row / 8)) % 3;
@@ -187,19 +191,21 @@ glm::dvec4 color_at(const ColorMap& map, glm::dvec2 p) {
   return glm::mix(north, south, v - j);
 }
 
-/// West is green, east of x = 64 blue.
+/// West is green, east of x = 64.9 blue.
 ColorMap shore() {
   ColorMap map = test::plain_map(k_side, 64, k_green);
+  map.min_corner = k_map_corner;
   for (int i = 0; i < 64 * 64; ++i) {
     if (i % 64 >= 32) map.texels[i] = k_blue;
   }
   return map;
 }
 
-/// Plants more than a texel west of the shore, within one texel of it, and further east.
+/// Plants more than a texel west of the shore, within one texel west of it, and on the water, which is the nearer
+/// colour from half-way between the texels' centres on.
 std::array<int, 3> by_side(const std::vector<Plant>& plants) {
   std::array<int, 3> counts{};
-  for (const Plant& p : plants) ++counts[p.position.x < 62.0 ? 0 : p.position.x < 66.0 ? 1 : 2];
+  for (const Plant& p : plants) ++counts[p.position.x < 62.9 ? 0 : p.position.x < 64.9 ? 1 : 2];
   return counts;
 }
 
@@ -223,7 +229,7 @@ TEST(Plants, NoneStandWhereABareSpeciesForbids) {
 TEST(Plants, NoneStandOnMaskedGroundNorOffTheMap) {
   Layer layer = meadow_layer(60.0f);
   ColorMap map = test::plain_map(96.0, 48, k_green);
-  map.min_corner = {16.0, -112.0};
+  map.min_corner = {16.7, -111.4};
   for (int row = 0; row < 48; ++row) {
     for (int column = 0; column < 48; ++column) {
       if ((column / 3 + row / 3) % 2 == 0) map.texels[row * 48 + column].a = 0;
@@ -233,10 +239,10 @@ TEST(Plants, NoneStandOnMaskedGroundNorOffTheMap) {
   ASSERT_GT(field.plants.size(), 1000u);
   double most = 0.0;
   for (const Plant& p : field.plants) {
-    ASSERT_GE(p.position.x, 16.0);
-    ASSERT_LE(p.position.x, 112.0);
-    ASSERT_GE(p.position.y, -112.0);
-    ASSERT_LE(p.position.y, -16.0);
+    ASSERT_GE(p.position.x, 16.7 - 1e-4);
+    ASSERT_LE(p.position.x, 112.7 + 1e-4);
+    ASSERT_GE(p.position.y, -111.4 - 1e-4);
+    ASSERT_LE(p.position.y, -15.4 + 1e-4);
     ASSERT_GE(color_at(map, glm::dvec2(p.position)).w, 0.5 - 1e-4);
     most = std::max(most, std::abs(p.position.x - 64.0));
   }
