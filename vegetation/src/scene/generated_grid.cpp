@@ -90,6 +90,13 @@ Grid refined(const Grid& grid) {
   return fine;
 }
 
+Grid every_second(const Grid& grid) {
+  Grid coarse((grid.side + 1) / 2, 2 * grid.spacing);
+  for (int row = 0; row < coarse.side; ++row)
+    for (int column = 0; column < coarse.side; ++column) coarse.at(column, row) = grid.at(2 * column, 2 * row);
+  return coarse;
+}
+
 namespace {
 
 // Box filter of 2 reach + 1 samples along one line of `count` samples `stride` apart; edges repeat.

@@ -35,6 +35,8 @@ struct Grid {
 
 /// Twice the resolution over the same square: (2 side - 1) samples, old ones kept, new ones by cubic interpolation.
 Grid refined(const Grid& grid);
+/// Half the resolution over the same square: (side + 1) / 2 samples of an odd number, none changed.
+Grid every_second(const Grid& grid);
 /// Gaussian-like blur (three box passes) of about `radius` metres standard deviation.
 Grid blurred(const Grid& grid, float radius);
 /// Slope dz/dx, dz/dy (north) by central differences over `reach` samples to each side.

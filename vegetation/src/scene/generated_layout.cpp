@@ -112,12 +112,8 @@ Layout make_layout(int samples, float spacing, uint32_t seed) {
 
 Grid resampled(Grid grid, int samples) {
   while (grid.side < samples) grid = refined(grid);
-  if (grid.side == samples) return grid;
-  const int stride = (grid.side - 1) / (samples - 1);
-  Grid coarse(samples, grid.spacing * float(stride));
-  for (int row = 0; row < samples; ++row)
-    for (int column = 0; column < samples; ++column) coarse.at(column, row) = grid.at(column * stride, row * stride);
-  return coarse;
+  while (grid.side > samples) grid = every_second(grid);
+  return grid;
 }
 
 Forces resampled(const Forces& forces, int samples) {

@@ -24,6 +24,7 @@ struct Survey {
   Grid hollow;    // metres below the mean of the surroundings (some 20 m)
   Grid snowline;  // height above which snow stays, metres
   Grid worn;      // 0..1: pastures that hooves have opened
+  Grid mottle;    // noise of about 300 m
 };
 
 struct Site {
@@ -60,22 +61,23 @@ float site_dryness(const Grid& broad, const Grid& swell, const Grid& channel, in
 }
 
 Survey make_survey(const Relief& relief, uint32_t seed) {
-  const Grid& z = relief.heights;
   Survey survey;
   survey.channel = relief.area;
   for (float& value : survey.channel.values) value = std::log2(value);
-  survey.hollow = difference(blurred(z, 20), blurred(z, 5));
+  const Grid z = every_second(blurred(relief.heights, 5));
+  survey.hollow = difference(blurred(z, 20), z);
   const Grid broad = blurred(z, 30);
   const Grid swell = difference(broad, blurred(z, 120));
-  const Grid channel = blurred(survey.channel, 14);
-  survey.dryness = survey.snowline = survey.worn = Grid(z.side, z.spacing);
+  const Grid channel = blurred(every_second(survey.channel), 14);
+  survey.dryness = survey.snowline = survey.worn = survey.mottle = Grid(z.side, z.spacing);
   for (int row = 0; row < z.side; ++row) {
     for (int column = 0; column < z.side; ++column) {
       const glm::vec2 p = z.position(column, row);
       const size_t i = size_t(z.index(column, row));
       survey.dryness.values[i] = site_dryness(broad, swell, channel, column, row, seed);
       const float shade = -std::clamp(gradient(broad, column, row).y, -0.7f, 0.7f);
-      survey.snowline.values[i] = 425 - 75 * shade + 34 * fbm(p / 520.0f, 2, 0.5f, seed + 420);
+      survey.snowline.values[i] = 392 - 75 * shade + 34 * fbm(p / 520.0f, 2, 0.5f, seed + 420);
+      survey.mottle.values[i] = fbm(p / 310.0f, 2, 0.5f, seed + 500);
       survey.worn.values[i] = smooth_step(0.05f, 0.5f, fbm(p / 260.0f, 2, 0.5f, seed + 430));
     }
   }
@@ -85,26 +87,28 @@ Survey make_survey(const Relief& relief, uint32_t seed) {
 Cover cover_of(const Site& site) {
   const float fray = 0.5f * site.mottle[1] + 0.35f * site.mottle[2] + 0.25f * site.mottle[3] + 0.25f * site.grain;
   const float bare = 0.45f * site.mottle[2] + 0.4f * site.mottle[3] + 0.25f * site.mottle[1] + 0.3f * site.grain;
-  const float high = smooth_step(230, 430, site.height);
+  const float high = smooth_step(190, 420, site.height);
   Cover cover;
   cover.share[size_t(Ground::grass)] = 1;
-  cover.lay(Ground::dry_grass, smooth_step(-0.1f, 0.2f, site.dryness + 0.36f * fray - 0.04f + 0.1f * high));
+  cover.lay(Ground::dry_grass, smooth_step(-0.24f, 0.36f, site.dryness + 0.55f * fray - 0.12f + 0.15f * high));
 
-  const float wear = smooth_step(0.32f, 0.46f, bare * (0.35f + 0.75f * site.worn));
-  const float bank = smooth_step(0.5f, 0.66f, site.slope + 0.3f * fray + 0.14f * high - 0.05f);
+  const float wear = smooth_step(0.33f, 0.45f, bare * (0.35f + 0.75f * site.worn) + 0.13f * high);
+  const float bank = smooth_step(0.5f, 0.62f, site.slope + 0.28f * fray + 0.16f * high - 0.02f * site.hollow);
   const float gully = smooth_step(11.0f, 12.6f, site.channel + 2.2f * bare) * smooth_step(0.26f, 0.42f, site.slope);
   const float bed = smooth_step(18.6f, 19.5f, site.channel + 1.3f * fray);
-  const float trail = smooth_step(0.3f, 0.75f, site.trail * (1 + 0.5f * bare) + 0.25f * (site.trail > 0 ? bare : 0.0f));
-  cover.lay(Ground::soil, std::max({wear, bank, 0.9f * gully, 0.85f * bed, trail}));
+  const float trail = smooth_step(0.3f, 0.8f, site.trail * (1 + 0.5f * bare) + 0.2f * (site.trail > 0 ? bare : 0.0f));
+  const float open = std::max({wear, bank, 0.9f * gully, 0.85f * bed});
+  cover.lay(Ground::soil, std::max(smooth_step(0.25f, 0.7f, open), trail));
 
-  const float cliff = smooth_step(0.66f, 0.82f, site.slope + 0.26f * fray + 0.2f * high + 0.012f * -site.hollow);
-  const float outcrop = smooth_step(0.62f, 0.74f, bare + 0.25f * high + 0.05f * std::min(-site.hollow, 2.0f));
-  const float heights = smooth_step(400, 470, site.height + 45 * fray);
-  cover.lay(Ground::rock, std::max({cliff, 0.9f * outcrop, heights}));
+  // Scree fills the hollows between the buttresses.
+  const float cliff = smooth_step(0.66f, 0.78f, site.slope + 0.3f * fray + 0.12f * high - 0.035f * site.hollow);
+  const float outcrop = smooth_step(0.62f, 0.74f, bare + 0.25f * high - 0.05f * std::max(site.hollow, -2.0f));
+  const float crest = smooth_step(380, 450, site.height + 60 * fray - 12 * site.hollow);
+  cover.lay(Ground::rock, std::max({cliff, 0.9f * outcrop, crest}));
 
-  const float line = site.height - site.snowline + 26 * fray + 9 * std::clamp(site.hollow, -3.0f, 5.0f);
-  const float holds = 1 - smooth_step(0.86f, 1.12f, site.slope + 0.22f * bare);
-  cover.lay(Ground::snow, smooth_step(-12, 12, line) * holds);
+  const float line = site.height - site.snowline + 30 * fray + 13 * std::clamp(site.hollow, -4.0f, 5.0f);
+  const float holds = 1 - smooth_step(0.92f, 1.2f, site.slope + 0.25f * bare - 0.02f * site.hollow);
+  cover.lay(Ground::snow, smooth_step(-10, 10, line) * holds);
   return cover;
 }
 
@@ -112,24 +116,30 @@ glm::vec3 between(glm::vec3 a, glm::vec3 b, float t) {
   return glm::mix(a, b, std::clamp(t, 0.0f, 1.0f));
 }
 
+glm::vec3 rock_color(const Site& site, float tone) {
+  // Strata: bands of height, dipping and bent; cliffs are darker than what lies at rest.
+  const float level = site.height + 0.21f * site.p.x + 0.13f * site.p.y + 14 * site.mottle[1];
+  const float band = noise({level / 21.0f, 0.4f * site.mottle[0]}, 77) + 0.6f * noise({level / 6.5f, 3.1f}, 78);
+  const float cliff = smooth_step(0.6f, 1.15f, site.slope) - 0.1f * std::clamp(site.hollow, -2.5f, 2.5f);
+  return between({88, 86, 82}, {148, 144, 136},
+                 0.62f * tone + 0.3f + 0.17f * band - 0.38f * cliff + 0.16f * site.mottle[3]);
+}
+
 // sRGB 0..255 of each ground at a site, before its brightness varies.
 glm::vec3 ground_color(Ground ground, const Site& site) {
   const float tone = 0.5f + 0.3f * site.mottle[0] + 0.3f * site.mottle[1] + 0.2f * site.mottle[2];
   switch (ground) {
     case Ground::grass: {
-      const glm::vec3 meadow = between({84, 103, 52}, {106, 119, 63}, tone);
-      const float damp = smooth_step(0.1f, -0.5f, site.dryness);
-      return between(meadow, {76, 104, 52}, 0.7f * damp);
+      const glm::vec3 meadow = between({88, 103, 55}, {111, 121, 67}, tone);
+      const float damp = smooth_step(0.1f, -0.6f, site.dryness);
+      return between(meadow, {80, 104, 55}, 0.65f * damp);
     }
     case Ground::dry_grass:
-      return between({141, 128, 78}, {160, 148, 95}, tone);
+      return between({138, 126, 78}, {158, 146, 94}, tone);
     case Ground::soil:
-      return between({96, 77, 56}, {118, 95, 70}, tone + 0.6f * site.mottle[3]);
-    case Ground::rock: {
-      // Strata: bands of height, bent by the mottling.
-      const float band = noise({site.height / 17.0f + 0.5f * site.mottle[1], 0.13f * site.mottle[0]}, 77);
-      return between({101, 98, 93}, {138, 134, 127}, 0.8f * tone + 0.1f + 0.35f * band + 0.25f * site.mottle[3]);
-    }
+      return between({98, 79, 59}, {124, 101, 77}, tone + 0.6f * site.mottle[3]);
+    case Ground::rock:
+      return rock_color(site, tone);
     case Ground::snow:
       return between({226, 230, 236}, {242, 244, 246}, tone);
   }
@@ -160,7 +170,7 @@ Site site_at(const Survey& survey, const Grid& surface, glm::vec2 p, float reach
   site.hollow = survey.hollow.bilinear(p);
   site.snowline = survey.snowline.bilinear(p);
   site.worn = survey.worn.bilinear(p);
-  site.mottle[0] = fbm(p / 310.0f, 2, 0.5f, seed + 500);
+  site.mottle[0] = survey.mottle.bilinear(p);
   site.mottle[1] = 1.3f * fbm(p / 62.0f, 2, 0.6f, seed + 510);
   site.mottle[2] = 1.3f * fbm(p / 15.0f, 2, 0.6f, seed + 520);
   site.mottle[3] = 1.2f * noise(p / 5.3f, seed + 530);

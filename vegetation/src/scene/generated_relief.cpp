@@ -27,7 +27,7 @@ struct Stage {
 
 constexpr float k_simulated_width = 5120;
 constexpr std::array<Stage, 4> k_stages{
-    {{129, 20, 0.02f, 1, 14.0f}, {257, 20, 0.010f, 1, 6.0f}, {513, 12, 0.005f, 2, 2.5f}, {1025, 6, 0.0025f, 3, 1.0f}}};
+    {{129, 20, 0.02f, 1, 14.0f}, {257, 20, 0.010f, 2, 6.0f}, {513, 12, 0.005f, 3, 2.5f}, {1025, 5, 0.003f, 5, 1.0f}}};
 constexpr float k_relief = 600;  // metres from the lowest to the highest shown
 
 bool shown(glm::vec2 p) {
@@ -115,7 +115,7 @@ int octaves_above(float wavelength, float spacing, int most) {
 }
 
 struct Roughness {
-  int hummock_octaves, rock_octaves;
+  int hummock_octaves, rock_octaves, crag_octaves;
 };
 
 float surface_height(const Relief& relief, const Grid& steepness, const Roughness& rough, glm::vec2 p, uint32_t seed) {
@@ -124,9 +124,12 @@ float surface_height(const Relief& relief, const Grid& steepness, const Roughnes
   float z = relief.heights.bicubic(p);
   // Hummocks: lower in some places than in others.
   const float lively = 0.55f + 0.45f * noise(p / 390.0f, seed + 80);
-  z += meadow * lively * 2.6f * fbm(p / 118.0f, rough.hummock_octaves, 0.36f, seed + 81);
-  if (steep > 0 && rough.rock_octaves > 0)
-    z += steep * 6.5f * (ridged(p / 46.0f, rough.rock_octaves, seed + 90) - 0.45f);
+  z += meadow * lively * 3.2f * fbm(p / 118.0f, rough.hummock_octaves, 0.36f, seed + 81);
+  if (rough.rock_octaves > 0 && steep > 0)
+    z += steep * 6.0f * (ridged(p / 46.0f, rough.rock_octaves, seed + 90) - 0.45f);
+  // Crags along the crests.
+  const float crest = smooth_step(240, 460, z);
+  if (crest > 0) z += crest * (0.3f + 0.7f * steep) * 24 * (ridged(p / 135.0f, rough.crag_octaves, seed + 95) - 0.42f);
   return z;
 }
 
@@ -138,7 +141,8 @@ Grid sample_surface(const Relief& relief, int samples, uint32_t seed, int thread
   for (int row = 0; row < steepness.side; ++row)
     for (int column = 0; column < steepness.side; ++column)
       steepness.at(column, row) = glm::length(gradient(relief.heights, column, row));
-  const Roughness rough{octaves_above(118, surface.spacing, 6), octaves_above(46, surface.spacing, 6)};
+  const Roughness rough{octaves_above(118, surface.spacing, 6), octaves_above(46, surface.spacing, 6),
+                        std::min(2, octaves_above(135, surface.spacing, 6))};
   for_each_row(samples, threads, [&](int row) {
     for (int column = 0; column < samples; ++column)
       surface.at(column, row) = surface_height(relief, steepness, rough, surface.position(column, row), seed);

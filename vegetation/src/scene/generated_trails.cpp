@@ -87,7 +87,7 @@ Trail find_trail(const Grid& grid, std::span<const glm::vec2> way_points, uint32
   trail.push_back(way_points.back());
   for (int pass = 0; pass < 4; ++pass) trail = smoothed(trail);
   // Feet stray: a little wandering on top of the least effort.
-  for (glm::vec2& p : trail) p += 7.0f * warp(p / 85.0f, 3, seed + 300);
+  for (glm::vec2& p : trail) p += 16.0f * warp(p / 190.0f, 4, seed + 300);
   return trail;
 }
 
@@ -95,12 +95,7 @@ Trail find_trail(const Grid& grid, std::span<const glm::vec2> way_points, uint32
 
 std::vector<Trail> find_trails(const Grid& heights, uint32_t seed) {
   Grid coarse = blurred(heights, 12);
-  while (coarse.spacing < 15) {
-    Grid half((coarse.side + 1) / 2, coarse.spacing * 2);
-    for (int row = 0; row < half.side; ++row)
-      for (int column = 0; column < half.side; ++column) half.at(column, row) = coarse.at(2 * column, 2 * row);
-    coarse = std::move(half);
-  }
+  while (coarse.spacing < 15) coarse = every_second(coarse);
   const glm::vec2 through[] = {{120, -2300}, {20, -140}, {32, 60}, {330, 760}};
   const glm::vec2 west[] = {{-2300, 60}, {-800, 30}, {20, -140}};
   return {find_trail(coarse, through, seed), find_trail(coarse, west, seed)};
@@ -109,7 +104,7 @@ std::vector<Trail> find_trails(const Grid& heights, uint32_t seed) {
 namespace {
 
 // Half width of the trodden ground and of its frayed edges, metres.
-constexpr float k_trodden = 0.7f, k_frayed = 2.6f;
+constexpr float k_trodden = 0.5f, k_frayed = 2.1f;
 
 struct WearMap {
   std::vector<uint8_t> values;
