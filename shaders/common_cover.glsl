@@ -11,9 +11,13 @@ float hash_unit(uvec2 v) {
   return float((h ^ (h >> 15)) >> 8) * 5.9604645e-8;
 }
 
-// Drivers turn alpha into few fixed masks; the plant's own number spreads what lies between two of them.
-float spread_cover(float cover, float phase) {
-  return cover >= 1.0 ? 1.0 : clamp(cover + (phase - 0.5) / frame.eye_noise.w, 0.0, 1.0);
+// Alpha for a coverage, 0: draw nothing. Drivers turn alpha into whole samples, some rounding up, some to the nearest:
+// the value lies where both give the number wanted. The plant's own number decides on the fraction of a sample, so that
+// a field of thin plants has the right mean.
+float sample_alpha(float cover, float phase) {
+  float samples = frame.eye_noise.w;
+  float wanted = min(floor(cover * samples + phase), samples);
+  return wanted >= samples ? 1.0 : max(wanted - 0.25, 0.0) / samples;
 }
 
 // Whether this part of a plant is left out where there is one sample a pixel. Parts are as long as a pixel, in steps of

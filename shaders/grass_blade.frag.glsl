@@ -25,8 +25,11 @@ const float k_shadow_light = 0.12;
 
 vec3 shadow_color(float strength) {
   vec2 uv = strip_self.xy + strip_point.xy * sward_layer.layer.map.xy / sward_layer.layer.map.zw;
-  vec3 albedo = ground_albedo(sward_base_map, uv, strip_point.xyz, strip_ground.xyz);
-  return shade_ground(albedo, strip_ground.xyz, strip_point.xyz, mix(1.0, k_shadow_light, strength));
+  vec3 normal = strip_ground.xyz;
+  GroundDetail detail = ground_detail(strip_point.xyz, normal);
+  vec3 albedo = ground_albedo(sward_base_map, uv, detail);
+  vec3 rough_normal = normalize(vec3(normal.xy / normal.z - detail.slope, 1.0));
+  return shade_ground(albedo, rough_normal, strip_point.xyz, mix(1.0, k_shadow_light, strength));
 }
 
 vec3 blade_color() {
@@ -42,11 +45,11 @@ vec3 blade_color() {
 void main() {
   float cover = strip_cover.x;
   if (frame.eye_noise.w > 1.0) {
-    cover = spread_cover(cover, strip_self.z);
+    cover = sample_alpha(cover, strip_self.z);
   } else {
-    if (hidden_by_hash(cover, strip_self.z, strip_point)) discard;
-    cover = 1.0;
+    cover = hidden_by_hash(cover, strip_self.z, strip_point) ? 0.0 : 1.0;
   }
+  if (cover <= 0.0) discard;
   vec3 radiance = strip_self.w >= 0.0 ? shadow_color(strip_self.w) : blade_color();
   color = vec4(encode_output(radiance), cover);
 }
