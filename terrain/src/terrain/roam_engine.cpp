@@ -164,6 +164,7 @@ void RoamEngine::undraw(uint32_t node) {
 }
 
 uint32_t RoamEngine::split(uint32_t leaf) {
+  settled_ = false;
   const Chain chain = tree_.forced_chain(leaf);
   for (int i = chain.length; i-- > 0;) split_one(chain.node[i]);
   return uint32_t(chain.length);
@@ -191,6 +192,7 @@ void RoamEngine::split_one(uint32_t node) {
 }
 
 void RoamEngine::merge(uint32_t node) {
+  settled_ = false;
   const uint32_t halves[2] = {node, tree_.neighbour[node].base};
   forget_diamond(node);
   for (const uint32_t half : halves) {

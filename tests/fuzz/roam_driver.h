@@ -1,0 +1,137 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "../../terrain/src/terrain/roam_engine.h"
+#include "../roam_support.h"
+
+/// Turns bytes into operations on a mesh and checks its structure after each. One driver for the seeded test and for
+/// libFuzzer.
+namespace roam_driver {
+
+/// The next bytes of the input as numbers; zeros when it has run out.
+class Input {
+ public:
+  explicit Input(std::span<const uint8_t> bytes) : bytes_(bytes) {}
+  bool empty() const { return at_ >= bytes_.size(); }
+  uint8_t byte() { return at_ < bytes_.size() ? bytes_[at_++] : uint8_t(0); }
+  uint16_t word() { return uint16_t(byte() | byte() << 8); }
+  double unit() { return word() / 65535.0; }
+  double between(double low, double high) { return low + (high - low) * unit(); }
+  /// Any bit pattern, NaN and infinity included.
+  double any_double() {
+    uint64_t bits = 0;
+    for (int i = 0; i < 8; ++i) bits = bits << 8 | byte();
+    return std::bit_cast<double>(bits);
+  }
+
+ private:
+  std::span<const uint8_t> bytes_;
+  size_t at_ = 0;
+};
+
+/// Fields of different kinds, made once: plain, padded with several root squares, with holes, with relief, flat.
+inline const roam_support::Terrain& terrain_of_kind(int kind) {
+  static const auto terrains = [] {
+    std::array<roam_support::Terrain, 5> all;
+    for (size_t i = 0; i < all.size(); ++i) {
+      roam_support::TerrainOptions options;
+      options.seed = uint32_t(i + 1);
+      if (i == 1) options.columns = 75, options.rows = 22;
+      if (i == 2) {
+        options.holes.assign(65 * 65, 0);
+        for (size_t k = 0; k < options.holes.size(); ++k) options.holes[k] = k % 65 > 30 && k % 65 < 50 && k > 800;
+      }
+      if (i == 3) options.columns = options.rows = 17, options.spacing = 20, options.detail = true;
+      if (i == 4) options.relief_m = 0;
+      all[i] = roam_support::make_terrain(options);
+    }
+    return all;
+  }();
+  return terrains[size_t(kind) % terrains.size()];
+}
+
+inline sward::View read_view(Input& in, const sward::HeightField& field) {
+  const glm::dvec2 low = field.min_corner(), high = field.max_corner();
+  const glm::dvec3 eye(in.between(low.x - 50, high.x + 50), in.between(low.y - 50, high.y + 50), in.between(-200, 400));
+  const double azimuth = in.between(-4, 4), pitch = in.between(-1.6, 1.6), fov = in.between(0.02, 2.5);
+  const double near_plane = in.between(0.01, 60);
+  sward::View view = sward::View::look(eye, azimuth, pitch, fov, {640, 480}, near_plane, near_plane + 2000);
+  const uint8_t odd = in.byte();
+  if (odd == 255) view.eye.x = in.any_double();
+  if (odd == 254) view.clip_from_eye[0][0] = in.any_double();
+  if (odd >= 240 && odd < 250) view.viewport.x = int(odd) - 240;
+  return view;
+}
+
+inline sward::RoamOptions read_options(Input& in) {
+  sward::RoamOptions options;
+  options.max_triangles = in.word() % 1500;
+  options.hysteresis = float(in.unit() * 0.2);
+  options.target_px = in.byte() % 4 == 0 ? float(in.unit() * 40) : 0;
+  options.time_cap_s = in.byte() % 8 == 0 ? 1e-9 : 0;
+  return options;
+}
+
+/// The first node from `start` on, around, for which `wanted` holds.
+template <class Wanted>
+uint32_t find_node(const sward::roam::RoamTree& tree, uint32_t start, Wanted&& wanted) {
+  const uint32_t count = uint32_t(tree.size());
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t node = (start + i) % count;
+    if (tree.is_alive(node) && wanted(node)) return node;
+  }
+  return sward::roam::k_none;
+}
+
+/// One operation; what it did wrong, or nothing.
+inline std::string step(Input& in, sward::roam::RoamEngine& engine) {
+  const sward::roam::RoamTree& tree = engine.tree();
+  switch (in.byte() % 5) {
+    case 0:
+      (void)engine.set_options(read_options(in));
+      return "";
+    case 1:
+    case 2:
+      if (!engine.update(read_view(in, tree.field()))) return "";
+      return engine.visible_count() > engine.options().max_triangles ? "the budget is exceeded" : "";
+    case 3: {
+      const int deepest = std::min(tree.field().max_level() + 2, sward::k_max_level - 1);
+      const uint32_t leaf =
+          find_node(tree, in.word(), [&](uint32_t n) { return tree.is_leaf(n) && tree.id[n].level() < deepest; });
+      if (leaf == sward::roam::k_none) return "";
+      const sward::roam::Chain chain = tree.forced_chain(leaf);
+      const int cost = engine.view() ? engine.split_cost(chain) : 0;
+      const int before = int(engine.visible_count());
+      engine.split(leaf);
+      return int(engine.visible_count()) - before == cost ? "" : "a split cost other than foretold";
+    }
+    default: {
+      const uint32_t node = find_node(tree, in.word(), [&](uint32_t n) { return tree.mergeable(n); });
+      if (node == sward::roam::k_none) return "";
+      const int gain = engine.merge_gain(node), before = int(engine.visible_count());
+      engine.merge(node);
+      return before - int(engine.visible_count()) == gain ? "" : "a merge gained other than foretold";
+    }
+  }
+}
+
+/// Runs the input; the first fault, or nothing.
+inline std::string run(std::span<const uint8_t> bytes) {
+  Input in(bytes);
+  const roam_support::Terrain& terrain = terrain_of_kind(in.byte());
+  sward::roam::RoamEngine engine(*terrain.bounds, {});
+  while (!in.empty()) {
+    if (std::string fault = step(in, engine); !fault.empty()) return fault;
+    if (const auto valid = engine.validate(); !valid) return valid.error().message;
+  }
+  return "";
+}
+
+}  // namespace roam_driver
