@@ -56,13 +56,17 @@ Expected<std::vector<T>> single_channel(const RawImage& image, const std::string
   return first;
 }
 
+/// The float that a tag's decimal digits mean; "-3.40282346638529e+38" is the lowest one, though a little beyond it.
+double as_float(double value) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  if (!(std::abs(value) <= largest * (1 + 1e-7))) return value;
+  return double(float(std::clamp(value, -largest, largest)));
+}
+
 template <class T>
 std::vector<uint8_t> find_holes(const std::vector<T>& raw, std::optional<double> no_data) {
   if (!no_data) return {};
-  // A tag written from a float's decimal digits may differ from it in the last bits of the double.
-  const double exact = std::is_same_v<T, float> && std::abs(*no_data) <= double(std::numeric_limits<float>::max())
-                           ? double(float(*no_data))
-                           : *no_data;
+  const double exact = std::is_same_v<T, float> ? as_float(*no_data) : *no_data;
   std::vector<uint8_t> holes;
   for (size_t i = 0; i < raw.size(); ++i) {
     if (double(raw[i]) != exact) continue;

@@ -3,6 +3,7 @@
 
 #include "image_io/raw_image.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -13,9 +14,11 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <sstream>
 #include <string_view>
 
 #include "image_io/oiio_errors.h"
+#include "image_io/png_chunks.h"
 
 namespace sward::image_io {
 
@@ -89,6 +92,13 @@ bool jpeg_ends(const std::string& path, uint64_t file_bytes) {
   std::string bytes(size_t(tail), '\0');
   stream.read(bytes.data(), tail);
   return bytes.find("\xff\xd9") != std::string::npos;
+}
+
+std::string read_bytes(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  return std::move(bytes).str();
 }
 
 Expected<uint64_t> check_file(const std::string& path, const std::string& what) {
@@ -193,6 +203,14 @@ Expected<RawImage> open_and_read(const std::string& path, const std::string& wha
   if (!input) return fail(name + " cannot be read: " + one_line(OIIO::geterror()));
   const DrainErrors drain(*input);
 
+  std::string chunks;
+  std::optional<OIIO::Filesystem::IOMemReader> memory;
+  if (format == "png") {
+    auto kept = pixel_chunks(read_bytes(path), name);
+    if (!kept) return tl::unexpected(kept.error());
+    chunks = std::move(*kept);
+    input->set_ioproxy(&memory.emplace(chunks.data(), chunks.size()));
+  }
   OIIO::ImageSpec config, spec;
   config.attribute("oiio:UnassociatedAlpha", 1);
   if (!input->open(path, spec, config)) {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <sward/image_io/image_io.h>
 #include <unistd.h>
@@ -8,9 +9,13 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <string_view>
+#include <system_error>
+#include <vector>
 
 #include "image_io/oiio_errors.h"
 #include "image_io/raw_image.h"
@@ -21,9 +26,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int k_largest_side = 65535;
-constexpr std::array<std::string_view, 8> k_extensions{".png",  ".jpg", ".jpeg", ".tif",
-                                                       ".tiff", ".bmp", ".tga",  ".ppm"};
+// JPEG's limit; its library ends the process beyond.
+constexpr int k_largest_side = 65500;
+// What OpenImageIO 2.4 encodes in memory; TIFF it leaves empty.
+constexpr std::array<std::string_view, 6> k_extensions{".png", ".jpg", ".jpeg", ".bmp", ".tga", ".ppm"};
 
 /// Removes a file at the end of the scope, unless it was kept.
 class TemporaryFile {
@@ -48,11 +54,10 @@ class TemporaryFile {
   bool kept_ = false;
 };
 
-/// Same folder, so that renaming stays within a file system; same extension, which names the format.
+/// Same folder, so that renaming stays within a file system.
 fs::path temporary_beside(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
-  const std::string name = "." + target.stem().string() + ".partial-" + std::to_string(getpid()) + "-" +
-                           std::to_string(counter++) + target.extension().string();
+  const std::string name = ".sward-partial-" + std::to_string(getpid()) + "-" + std::to_string(counter++);
   return target.parent_path() / name;
 }
 
@@ -62,7 +67,7 @@ Expected<void> check_target(const fs::path& target, const std::string& name) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });
   if (std::find(k_extensions.begin(), k_extensions.end(), extension) == k_extensions.end()) {
-    return fail(name + " must end in .png, .jpg, .tif, .bmp, .tga or .ppm");
+    return fail(name + " must end in .png, .jpg, .bmp, .tga or .ppm");
   }
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, code)) {
@@ -72,10 +77,15 @@ Expected<void> check_target(const fs::path& target, const std::string& name) {
   return {};
 }
 
-Expected<void> write_pixels(const fs::path& path, int width, int height, std::span<const uint8_t> rgb,
-                            const std::string& name) {
+/// In memory first: encoders that write a file themselves miss errors of the last flush.
+Expected<std::vector<unsigned char>> encode(const fs::path& path, int width, int height, std::span<const uint8_t> rgb,
+                                            const std::string& name) {
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
   const auto output = OIIO::ImageOutput::create(path.string());
-  if (!output) return fail(name + " cannot be written: " + image_io::one_line(OIIO::geterror()));
+  if (!output || !output->set_ioproxy(&memory)) {
+    return fail(name + " cannot be written: " + image_io::one_line(OIIO::geterror()));
+  }
   const image_io::DrainErrors drain(*output);
   OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
@@ -83,7 +93,17 @@ Expected<void> write_pixels(const fs::path& path, int width, int height, std::sp
   if (!output->close() || !written) {
     return fail(name + " cannot be written: " + image_io::one_line(output->geterror()));
   }
-  return {};
+  return bytes;
+}
+
+Expected<void> write_file(const fs::path& path, std::span<const unsigned char> bytes, const std::string& name) {
+  errno = 0;
+  std::ofstream stream(path, std::ios::binary | std::ios::trunc);
+  stream.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+  stream.close();
+  if (stream) return {};
+  const std::string reason = errno != 0 ? std::generic_category().message(errno) : "writing failed";
+  return fail(name + " cannot be written: " + reason);
 }
 
 Expected<void> save(const std::string& path, int width, int height, std::span<const uint8_t> rgb) {
@@ -98,8 +118,10 @@ Expected<void> save(const std::string& path, int width, int height, std::span<co
                 std::to_string(expected_bytes));
   }
   if (auto checked = check_target(path, name); !checked) return checked;
+  const auto bytes = encode(path, width, height, rgb, name);
+  if (!bytes) return tl::unexpected(bytes.error());
   TemporaryFile temporary(temporary_beside(path));
-  if (auto written = write_pixels(temporary.path(), width, height, rgb, name); !written) return written;
+  if (auto written = write_file(temporary.path(), *bytes, name); !written) return written;
   if (const auto code = temporary.rename_to(path)) return fail(name + " cannot be written: " + code.message());
   return {};
 }
