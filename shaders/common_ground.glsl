@@ -28,8 +28,10 @@ GroundDetail ground_detail(vec3 relative_position, vec3 normal) {
   vec2 p = frame.eye_noise.xy + relative_position.xy;
   float footprint = ground_footprint(relative_position, normal);
   GroundDetail detail;
-  float broad = ground_noise(p, 0.03125, 1u).x * octave_weight(0.03125, footprint);
-  float patches = ground_noise(p, 0.125, 2u).x * octave_weight(0.125, footprint);
+  float broad_weight = octave_weight(0.03125, footprint);
+  float patch_weight = octave_weight(0.125, footprint);
+  float broad = broad_weight > 0.0 ? broad_weight * ground_noise(p, 0.03125, 1u).x : 0.0;
+  float patches = patch_weight > 0.0 ? patch_weight * ground_noise(p, 0.125, 2u).x : 0.0;
   detail.shade = 1.0 + 0.15 * broad + 0.22 * patches;
   detail.litter = 0.6 * broad + 0.9 * patches;
   detail.warp = vec2(0.0);
