@@ -17,6 +17,8 @@
 #include <sward/terrain/bounds.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -28,24 +30,22 @@ namespace sward {
 namespace {
 
 constexpr int k_mantissa_bits = 11;
+constexpr int k_codes_an_octave = 1 << k_mantissa_bits;
 constexpr int k_lowest_exponent = -12;
+constexpr double k_lowest = 0x1p-12;
 constexpr uint16_t k_largest = 0xfffe;
 // Passes over wider spacings take no time worth telling.
 constexpr int k_coarsest_reported = 8;
 
+// A double's upper bits are the format but for the exponent's bias; adding all the lower bits rounds up and carries
+// into the exponent. Below the lowest exponent numbers are spaced evenly, as in IEEE formats.
 uint16_t encode_double_up(double metres) {
-  // Below the lowest exponent numbers are spaced evenly, as in IEEE formats.
+  constexpr int k_dropped = 52 - k_mantissa_bits;
+  constexpr int64_t k_bias = int64_t(1023 + k_lowest_exponent - 1) << k_mantissa_bits;
   if (!(metres > 0.0)) return 0;
-  int exponent = 0;
-  std::frexp(metres, &exponent);
-  exponent = std::max(exponent - 1, k_lowest_exponent);
-  auto mantissa = int64_t(std::ceil(std::ldexp(metres, k_mantissa_bits - exponent)));
-  if (mantissa == 2 << k_mantissa_bits) {
-    mantissa /= 2;
-    ++exponent;
-  }
-  const int64_t code = (int64_t(exponent - k_lowest_exponent) << k_mantissa_bits) + mantissa;
-  return uint16_t(std::min<int64_t>(code, k_largest));
+  if (metres < k_lowest) return uint16_t(std::ceil(metres * (k_codes_an_octave / k_lowest)));
+  const int64_t bits = std::bit_cast<int64_t>(metres) + ((int64_t(1) << k_dropped) - 1);
+  return uint16_t(std::min<int64_t>((bits >> k_dropped) - k_bias, k_largest));
 }
 
 float float_up(double value) {
@@ -76,29 +76,23 @@ class BoundsBuilder {
     const bool along_row = row / h % 2 == 0;
     if (h == 1) strongest_row(row);
     const std::vector<uint8_t>& strongest = strongest_in_row();
+    const int q = h / 2;
+    const std::array<glm::ivec2, 4> corners{{{-q, -q}, {q, -q}, {-q, q}, {q, q}}};
+    const glm::ivec2 half = along_row ? glm::ivec2(h, 0) : glm::ivec2(0, h);
     for (int column = along_row ? h : 0; column < size_.x; column += 2 * h) {
-      const glm::ivec2 half = along_row ? glm::ivec2(h, 0) : glm::ivec2(0, h);
       const glm::ivec2 centre(column, row);
-      Below below;
-      if (h == 1) {
-        below = relief_below(centre, strongest);
-      } else {
-        const int q = h / 2;
-        for (const glm::ivec2 offset : {glm::ivec2(-q, -q), {q, -q}, {-q, q}, {q, q}}) add(centre + offset, below);
-      }
-      store(centre, half, below);
+      store(centre, half, h == 1 ? relief_below(centre, strongest) : largest(centre, corners));
     }
   }
 
   // Level 2 (n - i), rows of odd multiples of h. Root squares are cut from south-west to north-east, smaller ones so
   // that the base joins corners whose indices are both even or both odd.
   void square_row(int row, int h, bool root) const {
-    for (int column = h; column < size_.x; column += 2 * h) {
-      const bool falls_east = !root && (column / (2 * h) + row / (2 * h)) % 2 == 0;
+    const std::array<glm::ivec2, 4> sides{{{-h, 0}, {h, 0}, {0, -h}, {0, h}}};
+    bool falls_east = row / (2 * h) % 2 == 0;
+    for (int column = h; column < size_.x; column += 2 * h, falls_east = !falls_east) {
       const glm::ivec2 centre(column, row);
-      Below below;
-      for (const glm::ivec2 offset : {glm::ivec2(-h, 0), {h, 0}, {0, -h}, {0, h}}) add(centre + offset, below);
-      store(centre, falls_east ? glm::ivec2(h, h) : glm::ivec2(h, -h), below);
+      store(centre, falls_east && !root ? glm::ivec2(h, h) : glm::ivec2(h, -h), largest(centre, sides));
     }
   }
 
@@ -116,9 +110,9 @@ class BoundsBuilder {
   }
 
   void strongest_row(int row) const {
+    if (relief_per_share_ == 0.0) return;
     std::vector<uint8_t>& strongest = strongest_in_row();
     strongest.assign(size_t(data_.x), 0);
-    if (field_.relief_shares().empty()) return;
     for (int y = std::max(row - 2, 0); y <= std::min(row + 2, data_.y - 1); ++y) {
       const uint8_t* shares = field_.relief_shares().data() + size_t(y) * size_t(data_.x);
       for (size_t x = 0; x < strongest.size(); ++x) strongest[x] = std::max(strongest[x], shares[x]);
@@ -127,18 +121,24 @@ class BoundsBuilder {
 
   // The window of relief_bound(centre, level) for the four diamonds of the data's level, taken together.
   Below relief_below(glm::ivec2 centre, const std::vector<uint8_t>& strongest) const {
+    if (relief_per_share_ == 0.0) return {};
     uint8_t share = 0;
     const int last = std::min(centre.x + 2, data_.x - 1);
     for (int x = std::max(centre.x - 2, 0); x <= last; ++x) share = std::max(share, strongest[size_t(x)]);
     return {share * relief_per_share_, share > 0};
   }
 
-  void add(glm::ivec2 sample, Below& below) const {
-    if (sample.x < 0 || sample.y < 0 || sample.x >= size_.x || sample.y >= size_.y) return;
-    const uint16_t code = stored_[index(sample)];
-    if (code == Bounds::k_nothing) return;
-    below.bound = std::max(below.bound, double(Bounds::decode(code)));
-    below.any = true;
+  // Codes rise with what they stand for; one above, k_nothing wraps to 0, below all others.
+  uint16_t rank(glm::ivec2 sample) const {
+    if (sample.x < 0 || sample.y < 0 || sample.x >= size_.x || sample.y >= size_.y) return 0;
+    return uint16_t(stored_[index(sample)] + 1);
+  }
+
+  Below largest(glm::ivec2 centre, const std::array<glm::ivec2, 4>& offsets) const {
+    uint16_t highest = 0;
+    for (const glm::ivec2 offset : offsets) highest = std::max(highest, rank(centre + offset));
+    if (highest == 0) return {};
+    return {double(Bounds::decode(uint16_t(highest - 1))), true};
   }
 
   void store(glm::ivec2 centre, glm::ivec2 half, const Below& below) const {
@@ -223,10 +223,9 @@ uint16_t Bounds::encode_up(float metres) {
 }
 
 float Bounds::decode(uint16_t stored) {
-  const int field = stored >> k_mantissa_bits;
-  const int mantissa = stored & ((1 << k_mantissa_bits) - 1);
-  if (field == 0) return std::ldexp(float(mantissa), k_lowest_exponent - k_mantissa_bits);
-  return std::ldexp(float(mantissa + (1 << k_mantissa_bits)), field - 1 + k_lowest_exponent - k_mantissa_bits);
+  constexpr uint32_t k_bias = uint32_t(127 + k_lowest_exponent - 1) << k_mantissa_bits;
+  if (stored < k_codes_an_octave) return float(stored) * float(k_lowest / k_codes_an_octave);
+  return std::bit_cast<float>((stored + k_bias) << (23 - k_mantissa_bits));
 }
 
 }  // namespace sward

@@ -18,7 +18,7 @@ namespace sward {
 class Bounds {
  public:
   /// Bottom-up, in parallel over `threads` threads (0: all cores); the result does not depend on their number.
-  /// Cost: about 10 ns a sample a core. The field must outlive the bounds.
+  /// Cost: some 20 ns a sample a core. The field must outlive the bounds.
   static Bounds create(const HeightField& field, int threads = 0, const Progress& progress = {});
 
   /// Writes the bounds to a file that load() reads: to a temporary beside it, renamed when complete.
