@@ -32,7 +32,7 @@ struct BladeShapes {
 };
 /// k' at N = 16 of a stiffness in [0, 1], increasing: 0 hangs to the ground, 1 is just below the critical value.
 double blade_k_prime(double stiffness);
-/// About 10 ms. Any thread.
+/// Some 50 ms. Any thread.
 Expected<BladeShapes> make_blade_shapes();
 
 }  // namespace sward
