@@ -222,7 +222,7 @@ TEST(Trails, WearTheGroundAlongTheirLineOnly) {
 TEST(Trails, GoAroundASteepHill) {
   // The straight line between the way points would climb 120 m.
   const Grid heights = from_function(513, 10, [](glm::vec2 p) {
-    const float d = glm::length(p - glm::vec2(25, 400));
+    const float d = glm::length(p - glm::vec2(175, 400));
     return 120 * std::exp(-d * d / 20000);
   });
   float highest = 0;
