@@ -21,10 +21,10 @@ struct GeneratedTerrain {
 };
 
 /// A place of ridges, valleys and gentle meadows, eroded, about 600 m of relief in 4 x 4 km: a high range in the north,
-/// a spur of it in the east, hills in the west and south-west, meadows that drain to the south around the middle, where
-/// the lowest sample is at 0 m. The base map is painted by slope, altitude, curvature and flow: grass, dry grass, soil,
-/// rock, snow; alpha is 255 everywhere. Deterministic: the same bits for the same options on every run and thread
-/// count.
+/// a spur of it in the east, hills in the west and south-west; around the middle, meadows that drain to the south.
+/// Heights count from about the lowest ground. The base map is painted by slope, altitude, curvature and flow: grass,
+/// dry grass, soil, rock, snow; alpha is 255 everywhere. Deterministic: the same bits for the same options on every run
+/// and thread count.
 ///
 /// A good first view: 1.7 m above the ground at (0, 0), yaw 80 to 95 degrees, pitch 2 degrees, sun in the west.
 ///
