@@ -1,8 +1,11 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 
-// Partial coverage of thin plants: alpha-to-coverage on multisampled targets, hashed alpha on others (Wyman, McGuire,
+// Partial coverage of thin plants: alpha to coverage on multisampled targets, hashed alpha on others (Wyman, McGuire,
 // "Hashed alpha testing", 2017, with the plant's own arc length as the place that the hash hangs on). GLSL only.
+//
+// The mask of samples is written here, not left to GL_SAMPLE_ALPHA_TO_COVERAGE: drivers round alpha differently, and
+// their masks are nested, so that of two plants covering a quarter of a pixel each one would always hide the other.
 
 float hash_unit(uvec2 v) {
   uint h = v.x * 0x9E3779B1u ^ v.y * 0x85EBCA77u;
@@ -11,13 +14,14 @@ float hash_unit(uvec2 v) {
   return float((h ^ (h >> 15)) >> 8) * 5.9604645e-8;
 }
 
-// Alpha for a coverage, 0: draw nothing. Drivers turn alpha into whole samples, some rounding up, some to the nearest:
-// the value lies where both give the number wanted. The plant's own number decides on the fraction of a sample, so that
-// a field of thin plants has the right mean.
-float sample_alpha(float cover, float phase) {
-  float samples = frame.eye_noise.w;
-  float wanted = min(floor(cover * samples + phase), samples);
-  return wanted >= samples ? 1.0 : max(wanted - 0.25, 0.0) / samples;
+// Samples that a plant of this coverage takes: as many as it covers, the fraction of one decided by the plant's own
+// number, which also says where they begin.
+int coverage_mask(float cover, float phase) {
+  int samples = int(frame.eye_noise.w);
+  int wanted = min(int(cover * float(samples) + phase), samples);
+  int run = (1 << wanted) - 1;
+  int turn = int(fract(phase * 61.803399) * float(samples));
+  return (run << turn | run >> (samples - turn)) & ((1 << samples) - 1);
 }
 
 // Whether this part of a plant is left out where there is one sample a pixel. Parts are as long as a pixel, in steps of

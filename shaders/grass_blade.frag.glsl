@@ -23,6 +23,9 @@ layout(location = 0) out vec4 color;
 // Sunlight left in the densest shadow: light between the blades and through them.
 const float k_shadow_light = 0.12;
 
+// How much of the ground's normal even near blades take on.
+const float k_field_share = 0.3;
+
 vec3 shadow_color(float strength) {
   vec2 uv = strip_self.xy + strip_point.xy * sward_layer.layer.map.xy / sward_layer.layer.map.zw;
   vec3 normal = strip_ground.xyz;
@@ -35,7 +38,9 @@ vec3 shadow_color(float strength) {
 vec3 blade_color() {
   SpeciesParams species = sward_layer.species[sward_species];
   Leaf leaf = grass_leaf(species, strip_color, strip_point.w, strip_normal.w, strip_self.z);
-  vec3 normal = normalize(mix(normalize(strip_normal.xyz), strip_ground.xyz, 0.6 * strip_ground.w));
+  // A meadow takes light from above as a whole, the more so the less single blades can be told apart.
+  float together = mix(k_field_share, 0.8, strip_ground.w);
+  vec3 normal = normalize(mix(normalize(strip_normal.xyz), strip_ground.xyz, together));
   vec3 lit = shade_leaf(species, leaf, normal, normalize(-strip_point.xyz));
   vec3 ground = strip_color.rgb * (ambient(strip_ground.xyz) +
                                    sun_light() * max(dot(strip_ground.xyz, frame.sun_direction.xyz), 0.0));
@@ -43,13 +48,15 @@ vec3 blade_color() {
 }
 
 void main() {
-  float cover = strip_cover.x;
+  float phase = strip_self.z;
+  int mask = 1;
   if (frame.eye_noise.w > 1.0) {
-    cover = sample_alpha(cover, strip_self.z);
-  } else {
-    cover = hidden_by_hash(cover, strip_self.z, strip_point) ? 0.0 : 1.0;
+    mask = coverage_mask(strip_cover.x, phase);
+  } else if (hidden_by_hash(strip_cover.x, phase, strip_point)) {
+    mask = 0;
   }
-  if (cover <= 0.0) discard;
+  if (mask == 0) discard;
+  gl_SampleMask[0] = mask;
   vec3 radiance = strip_self.w >= 0.0 ? shadow_color(strip_self.w) : blade_color();
-  color = vec4(encode_output(radiance), cover);
+  color = vec4(encode_output(radiance), 1.0);
 }

@@ -84,7 +84,7 @@ class Patch {
   }
 
   /// Level ground around the eye.
-  void look(const View& view) { look(view, level_ground(k_side, 8, view.eye, layer_.horizon_m * view.zoom())); }
+  void look(const View& view) { look(view, level_ground(k_side, level, view.eye, layer_.horizon_m * view.zoom())); }
   void look(const View& view, FixedTriangles triangles) {
     view_ = view;
     triangles_ = std::move(triangles);
@@ -114,6 +114,7 @@ class Patch {
 
   gl::Lighting lighting;
   int samples = 1;
+  int level = 8;  ///< Of the triangles: 2 * 2^level of them.
 
  private:
   /// Projected areas, for the law that asks for them; everything here lies before the near plane or far off the screen.

@@ -84,8 +84,6 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
                              {units.triangles, inputs.triangles.records()},
                              {units.surface, inputs.triangles.surface()},
                              {units.blade_shape, blade_shape_.id()}});
-  const bool multisampled = inputs.frame.samples() > 1;
-  if (multisampled) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   glPatchParameteri(GL_PATCH_VERTICES, 1);
   glBindVertexArray(vertex_array_.id());
   for (const StreamPlace& place : classified.places()) {
@@ -99,7 +97,6 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
   set_stream(vertex_array_, 0);
   glBindVertexArray(0);
   glUseProgram(0);
-  if (multisampled) glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
 }  // namespace sward
