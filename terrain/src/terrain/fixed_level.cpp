@@ -174,7 +174,7 @@ float Collector::screen_area(const Triangle& t) const {
 
 void Collector::visit(uint32_t node, const Triangle& t, unsigned active) {
   const bool leaf = tree_.is_leaf(node);
-  if (culled(t, leaf ? 0.0 : tree_.bound[node], active)) return;
+  if (culled(t, leaf ? 0.0 : tree_.corner[node].bound, active)) return;
   if (leaf) {
     if (!faces_away(t)) split_flat(t, active);
   } else if (t.id.level() == options_.level) {

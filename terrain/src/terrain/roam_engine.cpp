@@ -31,6 +31,12 @@ Expected<void> check_options(const RoamOptions& options, uint32_t drawable_roots
 RoamEngine::RoamEngine(const Bounds& bounds, const RoamOptions& options) : tree_(bounds), options_(options) {
   tree_.vertices.rebase(tree_.field().desc().origin);
   grow_arrays();
+  for (uint32_t vertex = 0; vertex < tree_.vertices.world.size(); ++vertex) take_vertex(vertex);
+}
+
+void RoamEngine::take_vertex(uint32_t vertex) {
+  seen_[vertex].world = tree_.vertices.world[vertex];
+  seen_[vertex].view = 0;
 }
 
 Expected<void> RoamEngine::set_options(const RoamOptions& options) {
@@ -44,17 +50,12 @@ Expected<void> RoamEngine::set_options(const RoamOptions& options) {
 
 void RoamEngine::grow_arrays() {
   const size_t nodes = tree_.size();
-  if (cull_.size() < nodes) {
-    cull_.resize(nodes, k_out);
-    priority_.resize(nodes, -1.0f);
+  if (state_.size() < nodes) {
+    state_.resize(nodes);
     draw_slot_.resize(nodes, k_none);
-    links_.resize(nodes);
   }
   const size_t vertices = tree_.vertices.lattice.size();
-  if (lanes_.size() < vertices) {
-    lanes_.resize(vertices);
-    lanes_view_.resize(vertices, 0);
-  }
+  if (seen_.size() < vertices) seen_.resize(vertices);
 }
 
 void RoamEngine::follow_eye(glm::dvec3 eye) {
@@ -62,87 +63,108 @@ void RoamEngine::follow_eye(glm::dvec3 eye) {
   if (first || glm::distance(eye, tree_.vertices.origin) > k_rebase_distance) tree_.vertices.rebase(glm::round(eye));
 }
 
-const Lanes& RoamEngine::lanes(uint32_t vertex) const {
-  if (lanes_view_[vertex] != view_number_) {
-    lanes_[vertex] = projection_.project(tree_.vertices.world[vertex]);
-    lanes_view_[vertex] = view_number_;
-  }
-  return lanes_[vertex];
+Assessment RoamEngine::assess(uint32_t node, CullFlags inherited) const {
+  const Corners& c = tree_.corner[node];
+  if (!view_ || inherited & k_out || c.bound < 0) return {};
+  return projection_.assess(lanes(c.apex), lanes(c.left), lanes(c.right), c.bound, inherited);
 }
 
-Assessment RoamEngine::assess(uint32_t node) const {
+CullFlags RoamEngine::inherited_flags(uint32_t node) const {
   const uint32_t parent = tree_.parent[node];
-  const CullFlags inherited = parent == k_none ? CullFlags(0) : cull_[parent];
-  if (!view_ || inherited & k_out || tree_.cover[node] == Cover::padding) return {};
-  const Corners& c = tree_.corner[node];
-  return projection_.assess(lanes(c.apex), lanes(c.left), lanes(c.right), tree_.bound[node], inherited);
+  return parent == k_none ? CullFlags(0) : state_[parent].cull;
 }
 
 // Takes the current view's flags and priority over for a node.
-void RoamEngine::adopt(uint32_t node) {
-  const Assessment now = assess(node);
-  cull_[node] = now.cull;
-  priority_[node] = now.priority;
+void RoamEngine::adopt(uint32_t node, CullFlags inherited) {
+  const Assessment now = assess(node, inherited);
+  state_[node].cull = now.cull;
+  state_[node].priority = now.priority;
 }
 
-// From the roots down. What lies below a node that was out and still is has not changed and is not visited.
+// From the roots down, level by level, so that memory can be fetched ahead. What lies below a node that was out and
+// still is has not changed and is not visited.
 void RoamEngine::reassess_all() {
-  std::vector<uint32_t> stack;
-  for (uint32_t root = tree_.root_count(); root-- > 0;) stack.push_back(root);
-  while (!stack.empty()) {
-    const uint32_t node = stack.back();
-    stack.pop_back();
-    const bool was_out = cull_[node] & k_out;
-    reassess(node);
-    if ((was_out && (cull_[node] & k_out)) || tree_.is_leaf(node)) continue;
-    stack.push_back(tree_.child[node] + 1);
-    stack.push_back(tree_.child[node]);
+  visits_.clear();
+  for (uint32_t root = 0; root < tree_.root_count(); ++root) visits_.push_back({root, 0});
+  for (size_t i = 0; i < visits_.size(); ++i) {
+    prefetch_nodes(i);
+    const Visit visit = visits_[i];
+    const bool was_out = state_[visit.node].cull & k_out;
+    reassess(visit.node, visit.inherited);
+    const CullFlags cull = state_[visit.node].cull;
+    if ((was_out && (cull & k_out)) || tree_.is_leaf(visit.node)) continue;
+    visits_.push_back({tree_.child[visit.node], cull});
+    visits_.push_back({tree_.child[visit.node] + 1, cull});
   }
 }
 
-void RoamEngine::reassess(uint32_t node) {
-  adopt(node);
+void RoamEngine::prefetch_nodes(size_t place) const {
+  constexpr size_t k_nodes_ahead = 24, k_vertices_ahead = 12;
+  if (place + k_nodes_ahead < visits_.size()) {
+    const uint32_t node = visits_[place + k_nodes_ahead].node;
+    __builtin_prefetch(&tree_.corner[node]);
+    __builtin_prefetch(&tree_.child[node]);
+    __builtin_prefetch(&state_[node]);
+  }
+  if (place + k_vertices_ahead < visits_.size()) {
+    const Corners& c = tree_.corner[visits_[place + k_vertices_ahead].node];
+    for (const uint32_t vertex : {c.apex, c.left, c.right}) __builtin_prefetch(&seen_[vertex]);
+  }
+}
+
+void RoamEngine::reassess(uint32_t node, CullFlags inherited) {
+  adopt(node, inherited);
   if (tree_.is_leaf(node)) {
     refresh_leaf(node);
-  } else if (const uint32_t diamond = tree_.diamond_of(node); links_.queued(diamond)) {
+  } else if (state_[node].half_queued) {
     // The other half may still have the last view's priority; its own visit then sets the key again.
-    merge_queue_.change_key(links_, diamond, diamond_key(diamond));
+    const uint32_t diamond = tree_.diamond_of(node);
+    merge_queue_.change_key(state_, diamond, diamond_key(diamond));
   }
 }
 
 void RoamEngine::refresh_leaf(uint32_t node) {
-  if (cull_[node] & k_out) {
+  if (state_[node].cull & k_out) {
     forget_leaf(node);
-  } else if (links_.queued(node)) {
-    split_queue_.change_key(links_, node, priority_[node]);
+  } else if (state_[node].queued()) {
+    split_queue_.change_key(state_, node, state_[node].priority);
   } else {
-    split_queue_.insert(links_, node, priority_[node]);
+    split_queue_.insert(state_, node, state_[node].priority);
     draw(node);
   }
 }
 
 void RoamEngine::forget_leaf(uint32_t node) {
-  if (!links_.queued(node)) return;
-  split_queue_.remove(links_, node);
+  if (!state_[node].queued()) return;
+  split_queue_.remove(state_, node);
   undraw(node);
 }
 
 float RoamEngine::diamond_key(uint32_t node) const {
   const uint32_t base = tree_.neighbour[node].base;
-  return base == k_none ? priority_[node] : std::max(priority_[node], priority_[base]);
+  return base == k_none ? state_[node].priority : std::max(state_[node].priority, state_[base].priority);
 }
 
 // Queues the diamond of a node that has just become a candidate for merging, if it is one.
 void RoamEngine::refresh_diamond(uint32_t node) {
   if (node == k_none || !tree_.mergeable(node)) return;
   const uint32_t diamond = tree_.diamond_of(node);
-  if (!links_.queued(diamond)) merge_queue_.insert(links_, diamond, diamond_key(diamond));
+  if (state_[diamond].queued()) return;
+  merge_queue_.insert(state_, diamond, diamond_key(diamond));
+  mark_halves(diamond, true);
+}
+
+void RoamEngine::mark_halves(uint32_t node, bool queued) {
+  state_[node].half_queued = queued;
+  if (const uint32_t base = tree_.neighbour[node].base; base != k_none) state_[base].half_queued = queued;
 }
 
 void RoamEngine::forget_diamond(uint32_t node) {
   if (node == k_none) return;
   const uint32_t diamond = tree_.diamond_of(node);
-  if (links_.queued(diamond)) merge_queue_.remove(links_, diamond);
+  if (!state_[diamond].queued()) return;
+  merge_queue_.remove(state_, diamond);
+  mark_halves(diamond, false);
 }
 
 void RoamEngine::draw(uint32_t node) {
@@ -179,12 +201,12 @@ void RoamEngine::split_one(uint32_t node) {
   }
   tree_.split_diamond(node);
   grow_arrays();
-  lanes_view_[tree_.corner[tree_.child[node]].apex] = 0;
+  take_vertex(tree_.corner[tree_.child[node]].apex);
   for (const uint32_t half : halves) {
     if (half == k_none) continue;
     for (uint32_t turn = 0; turn < 2; ++turn) {
       const uint32_t child = tree_.child[half] + turn;
-      adopt(child);
+      adopt(child, state_[half].cull);
       refresh_leaf(child);
     }
   }
@@ -219,8 +241,8 @@ int RoamEngine::merge_gain(uint32_t node) const {
 }
 
 float RoamEngine::bound_px() const {
-  const uint32_t worst = split_queue_.highest(links_);
-  return worst == k_none ? 0.0f : links_.key[worst];
+  const uint32_t worst = split_queue_.highest(state_);
+  return worst == k_none ? 0.0f : state_[worst].key;
 }
 
 }  // namespace sward::roam

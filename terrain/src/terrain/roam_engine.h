@@ -45,8 +45,8 @@ class RoamEngine {
   const RoamTree& tree() const { return tree_; }
   /// The view of the last update; nothing before the first.
   const std::optional<View>& view() const { return view_; }
-  bool is_visible(uint32_t node) const { return !(cull_[node] & k_out); }
-  float priority(uint32_t node) const { return priority_[node]; }
+  bool is_visible(uint32_t node) const { return !(state_[node].cull & k_out); }
+  float priority(uint32_t node) const { return state_[node].priority; }
   uint32_t visible_count() const { return uint32_t(drawn_.size()); }
   std::span<const uint32_t> indices() const { return indices_; }
 
@@ -57,11 +57,21 @@ class RoamEngine {
   // View and culling.
   void follow_eye(glm::dvec3 eye);
   void reassess_all();
-  void reassess(uint32_t node);
-  const Lanes& lanes(uint32_t vertex) const;
-  Assessment assess(uint32_t node) const;
-  void adopt(uint32_t node);
+  void reassess(uint32_t node, CullFlags inherited);
+  void prefetch_nodes(size_t place) const;
+  const Lanes& lanes(uint32_t vertex) const {
+    SeenVertex& seen = seen_[vertex];
+    if (seen.view != view_number_) {
+      seen.lanes = projection_.project(seen.world);
+      seen.view = view_number_;
+    }
+    return seen.lanes;
+  }
+  Assessment assess(uint32_t node, CullFlags inherited) const;
+  CullFlags inherited_flags(uint32_t node) const;
+  void adopt(uint32_t node, CullFlags inherited);
   void grow_arrays();
+  void take_vertex(uint32_t vertex);
 
   // Membership in queues and in the list of drawn leaves.
   void refresh_leaf(uint32_t node);
@@ -69,6 +79,7 @@ class RoamEngine {
   float diamond_key(uint32_t node) const;
   void refresh_diamond(uint32_t node);
   void forget_diamond(uint32_t node);
+  void mark_halves(uint32_t node, bool queued);
   void draw(uint32_t node);
   void undraw(uint32_t node);
 
@@ -91,18 +102,27 @@ class RoamEngine {
   bool settled_ = false;  // the mesh is what view_ and options_ ask for
   RoamStats stats_;
 
-  std::vector<CullFlags> cull_;
-  std::vector<float> priority_;  // of the node's own triangle; -1 when it is out
-  QueueLinks links_;
+  NodeStates state_;
   BucketQueue split_queue_;      // visible leaves
   BucketQueue merge_queue_;      // mergeable diamonds, by their lower node
   std::vector<uint32_t> drawn_;  // visible leaves, unordered
   std::vector<uint32_t> indices_;
   std::vector<uint32_t> draw_slot_;  // by node: place in drawn_
 
-  // By vertex; computed when first needed in a view.
-  mutable std::vector<Lanes> lanes_;
-  mutable std::vector<uint32_t> lanes_view_;
+  // Nodes that reassess_all() visits, in order, with their parents' flags.
+  struct Visit {
+    uint32_t node;
+    CullFlags inherited;
+  };
+  std::vector<Visit> visits_;
+
+  // What a view makes of a vertex, computed when first needed, beside what it is computed from: one cache line.
+  struct alignas(64) SeenVertex {
+    Lanes lanes;
+    glm::dvec3 world{0};
+    uint32_t view = 0;
+  };
+  mutable std::vector<SeenVertex> seen_;  // by vertex
   uint32_t view_number_ = 0;
 
   std::chrono::steady_clock::time_point deadline_;

@@ -4,18 +4,18 @@
 
 #include <sward/terrain/roam_mesh.h>
 #include <sward/terrain/view.h>
+
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include "roam_queue.h"
 
 namespace sward::roam {
 
-/// Culling flags of a node: bits 0..5 say "wholly inside this halfspace", k_out says "wholly outside of one of them"
-/// or in the padding. Children inherit every bit.
-using CullFlags = uint8_t;
-inline constexpr CullFlags k_out = 0x80;
 inline constexpr CullFlags k_in_near = 1 << 4;
+inline constexpr unsigned k_all_halfspaces = 0x3f;
 
 /// What a view makes of one vertex, rounded from double only at the end.
 ///   lane 0..5  distance to the halfspaces of frustum_planes()
@@ -46,22 +46,21 @@ class Projection {
 
   Lanes project(glm::dvec3 world) const;
 
-  /// `bound` in metres; `parent` the parent's flags (0 for a root).
+  /// `bound` in metres, negative for what is never visible; `parent` the parent's flags (0 for a root).
   Assessment assess(const Lanes& apex, const Lanes& left, const Lanes& right, float bound, CullFlags parent) const {
-    if (parent & k_out) return {};
-    float high[8], low[8];
-    for (int i = 0; i < 8; ++i) {
-      high[i] = std::max(apex.lane[i], std::max(left.lane[i], right.lane[i]));
-      low[i] = std::min(apex.lane[i], std::min(left.lane[i], right.lane[i]));
-    }
-    unsigned outside = 0, inside = parent;
-    for (int i = 0; i < 6; ++i) {
+    if (parent & k_out || bound < 0) return {};
+    // What the parent is wholly inside of needs no test.
+    unsigned inside = parent;
+    for (unsigned rest = k_all_halfspaces & ~inside; rest != 0; rest &= rest - 1) {
+      const int i = std::countr_zero(rest);
       const float reach = bound * reach_[i];
-      outside |= unsigned(high[i] + reach < 0) << i;
-      inside |= unsigned(low[i] - reach >= 0) << i;
+      const float a = apex.lane[i], b = left.lane[i], c = right.lane[i];
+      if (std::max(a, std::max(b, c)) + reach < 0) return {};
+      inside |= unsigned(std::min(a, std::min(b, c)) - reach >= 0) << i;
     }
-    if (outside & ~unsigned(parent)) return {};
-    return {CullFlags(inside), priority(high[6], low[7], bound, CullFlags(inside))};
+    const float thickness = std::max(apex.lane[6], std::max(left.lane[6], right.lane[6]));
+    const float nearest = std::min(apex.lane[7], std::min(left.lane[7], right.lane[7]));
+    return {CullFlags(inside), priority(thickness, nearest, bound, CullFlags(inside))};
   }
 
  private:

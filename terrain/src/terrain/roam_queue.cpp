@@ -6,23 +6,23 @@
 
 namespace sward::roam {
 
-uint32_t BucketQueue::highest(const QueueLinks& links) const {
+uint32_t BucketQueue::highest(const NodeStates& nodes) const {
   for (int s = int(summary_.size()) - 1; s >= 0; --s) {
     if (summary_[s] == 0) continue;
     const int w = s * 64 + 63 - std::countl_zero(summary_[s]);
     const int bucket = w * 64 + 63 - std::countl_zero(words_[w]);
     if (bucket == 0) return k_none;
     uint32_t best = heads_[bucket];
-    for (uint32_t node = best; node != k_none; node = links.next[node]) {
-      if (links.key[node] > links.key[best]) best = node;
-      if (links.key[best] >= RoamMesh::k_artificial_max) break;
+    for (uint32_t node = best; node != k_none; node = nodes[node].next) {
+      if (nodes[node].key > nodes[best].key) best = node;
+      if (nodes[best].key >= RoamMesh::k_artificial_max) break;
     }
     return best;
   }
   return k_none;
 }
 
-uint32_t BucketQueue::lowest(const QueueLinks& links) const {
+uint32_t BucketQueue::lowest(const NodeStates& nodes) const {
   for (size_t s = 0; s < summary_.size(); ++s) {
     uint64_t summary = summary_[s];
     while (summary != 0) {
@@ -31,8 +31,8 @@ uint32_t BucketQueue::lowest(const QueueLinks& links) const {
       const uint64_t word = w == 0 ? words_[0] & ~uint64_t(1) : words_[w];
       if (word == 0) continue;
       uint32_t best = heads_[w * 64 + std::countr_zero(word)];
-      for (uint32_t node = best; node != k_none && links.key[best] > 0; node = links.next[node])
-        if (links.key[node] < links.key[best]) best = node;
+      for (uint32_t node = best; node != k_none && nodes[best].key > 0; node = nodes[node].next)
+        if (nodes[node].key < nodes[best].key) best = node;
       return best;
     }
   }

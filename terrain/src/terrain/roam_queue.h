@@ -12,21 +12,25 @@ namespace sward::roam {
 
 inline constexpr uint32_t k_none = 0xffffffffu;
 
-/// Links, keys and buckets by node. Shared by the split and the merge queue: a node is a leaf or it is not.
-struct QueueLinks {
-  static constexpr uint16_t k_unqueued = 0xffff;
-  std::vector<uint32_t> previous, next;
-  std::vector<float> key;
-  std::vector<uint16_t> bucket;
+/// Culling flags of a node: bits 0..5 say "wholly inside this halfspace", k_out says "wholly outside of one of them"
+/// or in the padding. Children inherit every bit.
+using CullFlags = uint8_t;
+inline constexpr CullFlags k_out = 0x80;
 
-  void resize(size_t nodes) {
-    previous.resize(nodes, k_none);
-    next.resize(nodes, k_none);
-    key.resize(nodes, 0);
-    bucket.resize(nodes, k_unqueued);
-  }
-  bool queued(uint32_t node) const { return bucket[node] != k_unqueued; }
+/// What a view makes of a node, and its place in the split queue (a leaf) or the merge queue (a split node). Together,
+/// so that a visit of a pair of siblings touches one cache line.
+struct NodeState {
+  static constexpr uint16_t k_unqueued = 0xffff;
+  uint32_t previous = k_none, next = k_none;
+  float key = 0;
+  float priority = -1;  ///< Of the node's own triangle, pixels; -1 when it is out.
+  uint16_t bucket = k_unqueued;
+  CullFlags cull = k_out;
+  bool half_queued = false;  ///< Split node: its diamond is in the merge queue.
+
+  bool queued() const { return bucket != k_unqueued; }
 };
+using NodeStates = std::vector<NodeState>;
 
 /// Priority queue over keys >= 0 with 64 buckets an octave, cut from the float's own bits, under a two-level bitmap:
 /// insertion and removal take constant time, the extreme key is exact (its bucket is searched). Bucket 0 holds what
@@ -39,47 +43,47 @@ class BucketQueue {
 
   BucketQueue() : heads_(k_buckets, k_none) {}
 
-  void insert(QueueLinks& links, uint32_t node, float key) {
+  void insert(NodeStates& nodes, uint32_t node, float key) {
     const uint16_t bucket = bucket_of(key);
     const uint32_t head = heads_[bucket];
-    links.key[node] = key;
-    links.bucket[node] = bucket;
-    links.previous[node] = k_none;
-    links.next[node] = head;
-    if (head != k_none) links.previous[head] = node;
+    nodes[node].key = key;
+    nodes[node].bucket = bucket;
+    nodes[node].previous = k_none;
+    nodes[node].next = head;
+    if (head != k_none) nodes[head].previous = node;
     heads_[bucket] = node;
     words_[bucket >> 6] |= uint64_t(1) << (bucket & 63);
     summary_[bucket >> 12] |= uint64_t(1) << (bucket >> 6 & 63);
     ++size_;
   }
 
-  void remove(QueueLinks& links, uint32_t node) {
-    const uint16_t bucket = links.bucket[node];
-    const uint32_t previous = links.previous[node], next = links.next[node];
-    if (next != k_none) links.previous[next] = previous;
+  void remove(NodeStates& nodes, uint32_t node) {
+    const uint16_t bucket = nodes[node].bucket;
+    const uint32_t previous = nodes[node].previous, next = nodes[node].next;
+    if (next != k_none) nodes[next].previous = previous;
     if (previous != k_none) {
-      links.next[previous] = next;
+      nodes[previous].next = next;
     } else {
       heads_[bucket] = next;
       if (next == k_none) clear_bit(bucket);
     }
-    links.bucket[node] = QueueLinks::k_unqueued;
+    nodes[node].bucket = NodeState::k_unqueued;
     --size_;
   }
 
-  void change_key(QueueLinks& links, uint32_t node, float key) {
-    if (bucket_of(key) == links.bucket[node]) {
-      links.key[node] = key;
+  void change_key(NodeStates& nodes, uint32_t node, float key) {
+    if (bucket_of(key) == nodes[node].bucket) {
+      nodes[node].key = key;
     } else {
-      remove(links, node);
-      insert(links, node, key);
+      remove(nodes, node);
+      insert(nodes, node, key);
     }
   }
 
   /// The node of the largest key; k_none when none has a priority.
-  uint32_t highest(const QueueLinks& links) const;
+  uint32_t highest(const NodeStates& nodes) const;
   /// The node of the smallest key >= 0; k_none when none has a priority.
-  uint32_t lowest(const QueueLinks& links) const;
+  uint32_t lowest(const NodeStates& nodes) const;
   /// Some node without a priority, or k_none.
   uint32_t unprioritised() const { return heads_[0]; }
   size_t size() const { return size_; }

@@ -70,8 +70,8 @@ bool RoamEngine::converge() {
   shrink_to_budget();
   while (operations_ < operation_limit_) {
     if (out_of_time()) return false;
-    const uint32_t worst = split_queue_.highest(links_);
-    if (worst == k_none || links_.key[worst] <= options_.target_px) {
+    const uint32_t worst = split_queue_.highest(state_);
+    if (worst == k_none || state_[worst].key <= options_.target_px) {
       trim_below_target();
       return true;
     }
@@ -99,8 +99,8 @@ bool RoamEngine::make_room(uint32_t node) {
   uint32_t victim = hidden;
   const bool crowded = tree_.leaf_count() + 2 * (k_max_level + 1) > leaf_limit(options_, tree_.root_count());
   if (!crowded || hidden == k_none) {
-    const uint32_t lowest = merge_queue_.lowest(links_);
-    const bool pays = lowest != k_none && links_.key[lowest] * (1 + options_.hysteresis) < links_.key[node];
+    const uint32_t lowest = merge_queue_.lowest(state_);
+    const bool pays = lowest != k_none && state_[lowest].key * (1 + options_.hysteresis) < state_[node].key;
     if (pays) victim = lowest;
   }
   if (victim == k_none) return false;
@@ -112,7 +112,7 @@ bool RoamEngine::make_room(uint32_t node) {
 // A merge may bring more into sight than it removes, so this runs after every merge, too.
 void RoamEngine::shrink_to_budget() {
   while (visible_count() > options_.max_triangles) {
-    uint32_t victim = merge_queue_.lowest(links_);
+    uint32_t victim = merge_queue_.lowest(state_);
     if (victim == k_none) victim = merge_queue_.unprioritised();
     if (victim == k_none) return;  // the root mesh, which no budget is below
     count_merge(victim);
@@ -136,8 +136,8 @@ void RoamEngine::trim_below_target() {
   while (!out_of_time()) {
     uint32_t victim = merge_queue_.unprioritised();
     if (victim == k_none) {
-      victim = merge_queue_.lowest(links_);
-      if (victim == k_none || links_.key[victim] * (1 + options_.hysteresis) >= options_.target_px) return;
+      victim = merge_queue_.lowest(state_);
+      if (victim == k_none || state_[victim].key * (1 + options_.hysteresis) >= options_.target_px) return;
     }
     if (int64_t(visible_count()) - merge_gain(victim) > int64_t(options_.max_triangles)) return;
     count_merge(victim);
@@ -160,8 +160,8 @@ struct RoamEngine::Ghost {
 
 RoamEngine::Ghost RoamEngine::ghost(uint32_t node) const {
   const Corners& c = tree_.corner[node];
-  return {tree_.corners(node),    lanes(c.apex),     lanes(c.left), lanes(c.right),
-          tree_.id[node].level(), tree_.cover[node], cull_[node]};
+  return {tree_.corners(node),    lanes(c.apex),     lanes(c.left),    lanes(c.right),
+          tree_.id[node].level(), tree_.cover[node], state_[node].cull};
 }
 
 RoamEngine::Ghost RoamEngine::ghost_child(const Ghost& of, int turn, const Lanes& middle) const {

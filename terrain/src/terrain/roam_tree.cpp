@@ -104,8 +104,8 @@ void RoamTree::add_roots() {
       const uint32_t first = allocate_pair();
       const uint32_t nw = slot(column, row), ne = slot(column + 1, row);
       const uint32_t sw = slot(column, row + 1), se = slot(column + 1, row + 1);
-      set_node(first, TriangleId::root(0, {column, row}), {nw, sw, ne}, k_none, Cover::straddling);
-      set_node(first + 1, TriangleId::root(1, {column, row}), {se, ne, sw}, k_none, Cover::straddling);
+      set_node(first, TriangleId::root(0, {column, row}), {nw, sw, ne, 0}, k_none, Cover::straddling);
+      set_node(first + 1, TriangleId::root(1, {column, row}), {se, ne, sw, 0}, k_none, Cover::straddling);
     }
   }
   root_count_ = leaf_count_ = uint32_t(size());
@@ -138,7 +138,6 @@ uint32_t RoamTree::allocate_pair() {
   neighbour.resize(count);
   parent.resize(count, k_none);
   child.resize(count, k_dead);
-  bound.resize(count, 0.0f);
   cover.resize(count, Cover::inside);
   return first;
 }
@@ -150,8 +149,8 @@ void RoamTree::set_node(uint32_t node, TriangleId node_id, Corners slots, uint32
   parent[node] = parent_node;
   child[node] = k_none;
   const TriangleCorners points = corners(node);
-  bound[node] = bounds_->bound(centre_of(points), node_id.level());
   cover[node] = cover_of(*field_, points, parent_cover);
+  corner[node].bound = cover[node] == Cover::padding ? -1.0f : bounds_->bound(centre_of(points), node_id.level());
 }
 
 TriangleCorners RoamTree::corners(uint32_t node) const {
@@ -172,8 +171,8 @@ Chain RoamTree::forced_chain(uint32_t leaf) const {
 void RoamTree::make_children(uint32_t node, uint32_t middle) {
   const uint32_t first = allocate_pair();
   const Corners c = corner[node];
-  set_node(first, id[node].child(0), {middle, c.apex, c.left}, node, cover[node]);
-  set_node(first + 1, id[node].child(1), {middle, c.right, c.apex}, node, cover[node]);
+  set_node(first, id[node].child(0), {middle, c.apex, c.left, 0}, node, cover[node]);
+  set_node(first + 1, id[node].child(1), {middle, c.right, c.apex, 0}, node, cover[node]);
   child[node] = first;
   // A child's base is a leg of its parent; its legs at the middle are shared with its sibling and with the children
   // across the parent's base.

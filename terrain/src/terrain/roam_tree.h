@@ -55,9 +55,11 @@ class VertexPool {
   uint32_t period_ = 1;
 };
 
-/// Vertex slots of a node; counter-clockwise seen from above.
+/// Vertex slots of a node, counter-clockwise seen from above, and its bound in metres, negative in the padding: what
+/// culling reads of a node.
 struct Corners {
   uint32_t apex, left, right;
+  float bound;
 };
 
 /// Leaves across the base, the edge apex-left and the edge apex-right. A split node's base is the other half of its
@@ -105,7 +107,6 @@ class RoamTree {
   std::vector<Neighbours> neighbour;
   std::vector<uint32_t> parent;
   std::vector<uint32_t> child;  // first of the two; k_none: leaf; k_dead: unused
-  std::vector<float> bound;
   std::vector<Cover> cover;
   VertexPool vertices;
 

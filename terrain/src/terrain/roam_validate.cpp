@@ -60,18 +60,18 @@ class Validator {
   }
 
   void check_view(uint32_t node) {
-    const Assessment now = e_.assess(node);
-    require(now.cull == e_.cull_[node], node, "has flags of another view");
-    require(now.priority == e_.priority_[node], node, "has the priority of another view");
+    const Assessment now = e_.assess(node, e_.inherited_flags(node));
+    require(now.cull == e_.state_[node].cull, node, "has flags of another view");
+    require(now.priority == e_.state_[node].priority, node, "has the priority of another view");
   }
 
   void check_leaf(uint32_t node) {
     ++leaves_;
     const bool visible = e_.is_visible(node);
     visible_ += visible;
-    require(e_.links_.queued(node) == visible, node, visible ? "is visible, not queued" : "is queued, not visible");
+    require(e_.state_[node].queued() == visible, node, visible ? "is visible, not queued" : "is queued, not visible");
     if (visible) {
-      check_queued(node, e_.priority_[node]);
+      check_queued(node, e_.state_[node].priority);
       const uint32_t slot = e_.draw_slot_[node];
       require(slot < e_.drawn_.size() && e_.drawn_[slot] == node, node, "is visible and not drawn");
       const Corners& c = t_.corner[node];
@@ -121,7 +121,8 @@ class Validator {
     const bool stands_for_diamond = t_.diamond_of(node) == node;
     diamonds_ += stands_for_diamond;
     const bool expected = stands_for_diamond && t_.mergeable(node);
-    require(e_.links_.queued(node) == expected, node, expected ? "is mergeable, not queued" : "is queued wrongly");
+    require(e_.state_[node].half_queued == t_.mergeable(node), node, "does not know whether its diamond is queued");
+    require(e_.state_[node].queued() == expected, node, expected ? "is mergeable, not queued" : "is queued wrongly");
     if (expected) {
       check_queued(node, e_.diamond_key(node));
       ++mergeable_;
@@ -129,8 +130,8 @@ class Validator {
   }
 
   void check_queued(uint32_t node, float key) {
-    require(e_.links_.key[node] == key, node, "is queued by an old priority");
-    require(e_.links_.bucket[node] == BucketQueue::bucket_of(key), node, "is in the wrong bucket");
+    require(e_.state_[node].key == key, node, "is queued by an old priority");
+    require(e_.state_[node].bucket == BucketQueue::bucket_of(key), node, "is in the wrong bucket");
   }
 
   void check_counts() {
