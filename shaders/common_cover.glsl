@@ -14,11 +14,14 @@ float hash_unit(uvec2 v) {
   return float((h ^ (h >> 15)) >> 8) * 5.9604645e-8;
 }
 
+const int k_all_samples = -1;
+
 // Samples that a plant of this coverage takes: as many as it covers, the fraction of one decided by the plant's own
 // number, which also says where they begin.
 int coverage_mask(float cover, float phase) {
-  int samples = int(frame.eye_noise.w);
-  int wanted = min(int(cover * float(samples) + phase), samples);
+  int samples = min(int(frame.eye_noise.w), 30);
+  int wanted = int(cover * float(samples) + phase);
+  if (wanted >= samples) return k_all_samples;
   int run = (1 << wanted) - 1;
   int turn = int(fract(phase * 61.803399) * float(samples));
   return (run << turn | run >> (samples - turn)) & ((1 << samples) - 1);

@@ -19,13 +19,15 @@ FertileCluster unpack_cluster(uvec4 words) {
   return FertileCluster(words.x, words.y, uintBitsToFloat(words.z), uintBitsToFloat(words.w));
 }
 
+// Where the presence's fade is 0 nothing stands, and the rest may be undefined.
 struct Seedling {
+  vec2 offset;         // from the triangle's apex, metres east and north
   vec3 root;           // relative to the eye
   float distance;      // from the eye
   vec3 ground_normal;  // of the drawn surface
   vec2 map_uv;         // of the base map
   uint rank;
-  Presence presence;   // fade 0: nothing stands here
+  Presence presence;
   PlantTraits traits;
 };
 
@@ -43,30 +45,31 @@ vec2 map_coordinates(Triangle t, vec2 offset) {
 
 Presence absent() { return Presence(0.0, 0.0, 1.0); }
 
-// Seed `line` of a cluster. What cannot be seen or may not stand here comes back with fade 0, the rest of it undefined.
-Seedling grow_seed(FertileCluster fertile, uint line) {
+// A seed's place, and whether it is there at this distance; `triangle` is the cluster's.
+Seedling place_seed(FertileCluster fertile, Triangle triangle, uint line) {
   Seedling s;
   s.presence = absent();
   s.rank = fertile.index * cluster_size() + line;
-  if (s.rank >= fetch_submitted(fertile.record)) return s;
-
-  Triangle t = fetch_triangle(fertile.record);
-  Cluster cluster = make_cluster(t.id, fertile.index);
-  vec2 point = seed_point(t.id, s.rank, cluster);
-  vec2 offset = offset_from_apex(t.to_left, t.to_right, point);
-  SurfacePoint surface = surface_at(t, point);
-  s.root = vec3(t.apex.xy + offset, surface.z);
-  s.distance = seed_distance(t.apex, offset, surface.z);
-  Presence presence = seed_presence(sward_layer.layer, t.limit, t.id, s.rank, s.distance);
-  if (presence.fade <= 0.0) return s;
-
-  // Masks, water and bare ground are sharper than a cluster: the seed's own ground has a say.
-  GroundColor ground = ground_color(t, offset);
-  if (classify_ground(ground, fertile.z).species < 0) return s;
-
-  s.presence = presence;
+  if (s.rank >= triangle.submitted) return s;
+  Cluster cluster = make_cluster(triangle.id, fertile.index);
+  vec2 point = seed_point(triangle.id, s.rank, cluster);
+  SurfacePoint surface = surface_at(triangle, point);
+  s.offset = offset_from_apex(triangle.to_left, triangle.to_right, point);
+  s.root = vec3(triangle.apex.xy + s.offset, surface.z);
+  s.distance = seed_distance(triangle.apex, s.offset, surface.z);
   s.ground_normal = surface.normal;
-  s.map_uv = map_coordinates(t, offset);
-  s.traits = make_traits(sward_layer.species[sward_species], frame_layer(), t.id, s.rank, fertile.score);
+  s.presence = seed_presence(sward_layer.layer, triangle.limit, triangle.id, s.rank, s.distance);
+  return s;
+}
+
+// Gives a placed seed its traits. Masks, water and bare ground are sharper than a cluster: the seed's own ground has a
+// say, and where it says no, fade comes back 0.
+Seedling grow_seed(FertileCluster fertile, Triangle triangle, Seedling s) {
+  if (classify_ground(ground_color(triangle, s.offset), fertile.z).species < 0) {
+    s.presence = absent();
+    return s;
+  }
+  s.map_uv = map_coordinates(triangle, s.offset);
+  s.traits = make_traits(sward_layer.species[sward_species], frame_layer(), triangle.id, s.rank, fertile.score);
   return s;
 }

@@ -49,7 +49,7 @@ vec3 blade_color() {
 
 void main() {
   float phase = strip_self.z;
-  int mask = 1;
+  int mask = k_all_samples;
   if (frame.eye_noise.w > 1.0) {
     mask = coverage_mask(strip_cover.x, phase);
   } else if (hidden_by_hash(strip_cover.x, phase, strip_point)) {

@@ -36,17 +36,26 @@ void write_blade(Seedling s) {
   blade_self[gl_InvocationID] = vec4(find_contact(curve), s.traits.phase, s.distance, 0.0);
 }
 
-bool worth_drawing(Seedling s) {
+// Whether a plant of this height could be seen at all: asked before the ground is.
+bool worth_growing(Seedling s, float height) {
   if (s.presence.fade <= 0.0) return false;
-  float height = s.traits.height * s.presence.fade;
+  height *= s.presence.fade;
   if (height * frame.focal.y < k_least_height_px * s.distance) return false;
   return sphere_visible(s.root, height * (1.0 + shadow_reach(sward_layer.layer, s.distance)));
 }
 
-void main() {
-  Seedling s = grow_seed(unpack_cluster(cluster_words[0]), uint(gl_InvocationID));
+void grow_line() {
   blade_root[gl_InvocationID] = vec4(0.0);
-  if (worth_drawing(s)) write_blade(s);
+  FertileCluster fertile = unpack_cluster(cluster_words[0]);
+  Triangle triangle = fetch_triangle(fertile.record);
+  Seedling s = place_seed(fertile, triangle, uint(gl_InvocationID));
+  if (!worth_growing(s, sward_layer.species[sward_species].size.y)) return;
+  s = grow_seed(fertile, triangle, s);
+  if (s.presence.fade > 0.0) write_blade(s);
+}
+
+void main() {
+  grow_line();
   barrier();
   if (gl_InvocationID != 0) return;
 

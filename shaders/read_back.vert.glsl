@@ -14,7 +14,9 @@ layout(xfb_offset = 36) out vec2 captured_presence;  // score, fade
 
 void main() {
   FertileCluster fertile = unpack_cluster(cluster);
-  Seedling s = grow_seed(fertile, uint(gl_InstanceID));
+  Triangle triangle = fetch_triangle(fertile.record);
+  Seedling s = place_seed(fertile, triangle, uint(gl_InstanceID));
+  if (s.presence.fade > 0.0) s = grow_seed(fertile, triangle, s);
   captured_name = uvec2(fertile.record, s.rank);
   captured_presence = vec2(fertile.score, s.presence.fade);
   captured_root = vec3(0.0);
