@@ -32,7 +32,7 @@ struct NodeState {
 };
 using NodeStates = std::vector<NodeState>;
 
-/// Priority queue over keys >= 0 with 64 buckets an octave, cut from the float's own bits, under a two-level bitmap:
+/// Priority queue over keys >= 0 with 256 buckets an octave, cut from the float's own bits, under a two-level bitmap:
 /// insertion and removal take constant time, the extreme key is exact (its bucket is searched). Bucket 0 holds what
 /// has no priority: nodes that are not visible (key < 0).
 class BucketQueue {
@@ -89,8 +89,8 @@ class BucketQueue {
   size_t size() const { return size_; }
 
  private:
-  static constexpr int k_shift = 17;
-  static constexpr int k_buckets = 1 << 14;
+  static constexpr int k_shift = 15;
+  static constexpr int k_buckets = 1 << 16;
 
   void clear_bit(uint16_t bucket) {
     uint64_t& word = words_[bucket >> 6];

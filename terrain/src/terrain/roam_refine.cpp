@@ -87,7 +87,7 @@ bool RoamEngine::converge() {
 }
 
 bool RoamEngine::fits(const Chain& chain) const {
-  const int64_t most = 2 * chain.length;
+  const int64_t most = 2 * int64_t(chain.length);
   if (tree_.leaf_count() + most > leaf_limit(options_, tree_.root_count())) return false;
   const int64_t room = int64_t(options_.max_triangles) - visible_count();
   return most <= room || split_cost(chain) <= room;
