@@ -32,14 +32,11 @@ Leaf grass_leaf(SpeciesParams species, vec4 ground_and_age, float s, float acros
   float vein = 1.0 - 0.12 * exp(-12.0 * across * across);
   Leaf leaf;
   leaf.albedo = ground_and_age.rgb * mix(fresh, species.age_tint.rgb, dry) * (own * vein);
-  // Shade below must not darken the field as a whole: what is seen of it are mostly tips.
-  leaf.albedo *= 1.7 / (1.0 + root_shade);
-  // The base map shows leaves, shade and earth together; a leaf alone is more colourful.
-  float grey = dot(leaf.albedo, vec3(0.2126, 0.7152, 0.0722));
-  leaf.albedo = max(mix(vec3(grey), leaf.albedo, 1.12), vec3(0.0));
+  // The base map shows leaves and the shade between them together; a leaf alone is brighter.
+  leaf.albedo *= 3.1 / (1.0 + root_shade);
   // What comes down has met other leaves on its way.
   vec3 filtered = leaf.albedo / max(max(leaf.albedo.r, leaf.albedo.g), 1.0e-4);
-  leaf.sky = canopy_light(root_shade, s) * mix(vec3(1.0), filtered, 0.75 - 0.45 * s);
+  leaf.sky = canopy_light(root_shade, s) * mix(vec3(1.0), filtered, 0.5 - 0.35 * s);
   leaf.sun = canopy_light(root_shade * root_shade, s);
   return leaf;
 }
@@ -49,8 +46,8 @@ vec3 shade_leaf(SpeciesParams species, Leaf leaf, vec3 normal, vec3 to_eye) {
   vec3 sun = frame.sun_direction.xyz;
   float facing = dot(normal, sun);
   float through = species.optics.x * transmitted(facing, species.optics.y);
-  // Light that has passed a leaf is yellower, and as strong as what it throws back.
-  vec3 through_tint = leaf.albedo * vec3(1.65, 1.55, 0.65);
+  // Light that has passed a leaf is yellower.
+  vec3 through_tint = leaf.albedo * vec3(1.25, 1.2, 0.6);
   vec3 diffuse = leaf.albedo * max(facing, 0.0) + through_tint * through;
   float gloss = pow(max(dot(to_eye, reflect(-sun, normal)), 0.0), species.optics.w);
   float shine = facing > 0.0 ? species.optics.z * gloss : 0.0;

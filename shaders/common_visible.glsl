@@ -12,7 +12,7 @@ const float k_longest_shadow = 3.0;
 float shadow_strength(LayerParams layer, float distance) {
   float reach = layer.detail.y;
   if (reach <= 0.0 || frame.sun_direction.z <= 0.0) return 0.0;
-  return frame.sun_direction.w * (1.0 - smoothstep(0.6 * reach, reach, distance));
+  return frame.sun_direction.w * (1.0 - smoothstep(0.1 * reach, 0.8 * reach, distance));
 }
 
 float shadow_reach(LayerParams layer, float distance) {

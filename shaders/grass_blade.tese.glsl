@@ -46,5 +46,5 @@ void main() {
   vec2 uv_per_m = sward_layer.layer.map.xy / sward_layer.layer.map.zw;
   line_map = vec4(ground.zw - root.xy * uv_per_m, form.z, blade_self[i].y);
   float distance = blade_self[i].z;
-  line_fade = vec2(smoothstep(0.3, 1.0, distance / sward_layer.layer.reach.x), distance);
+  line_fade = vec2(smoothstep(0.02, 0.6, distance / sward_layer.layer.reach.x), distance);
 }
