@@ -154,9 +154,16 @@ TEST(SceneFuzz, DeepNestingIsRefused) {
     const auto scene = parse_scene("x = " + std::string(100000, bracket), "deep.toml");
     EXPECT_FALSE(scene);
   }
-  std::string dotted = "a";
-  for (int i = 0; i < 20000; ++i) dotted += ".a";
-  EXPECT_FALSE(parse_scene(dotted + " = 1\n", "dotted.toml"));
+  // Dotted keys nest too, alone and within lists and tables that nest.
+  for (const int parts : {30, 60, 20000, 1000000}) {
+    std::string dotted = "a";
+    for (int i = 0; i < parts; ++i) dotted += ".a";
+    EXPECT_FALSE(parse_scene(dotted + " = 1\n", "dotted.toml"));
+    EXPECT_FALSE(parse_scene("[" + dotted + "]\nb = 1\n", "dotted.toml"));
+    std::string nested = "x = [\n";
+    for (int i = 0; i < 300; ++i) nested += "{" + dotted.substr(0, 120) + " = [\n";
+    EXPECT_FALSE(parse_scene(nested, "nested.toml"));
+  }
 }
 
 }  // namespace

@@ -391,6 +391,7 @@ TEST(Scene, Contradictions) {
 
 TEST(Scene, BrokenToml) {
   expect_error("[terrain\n", 1, "expected TOML");
+  expect_error(with_added(1, "a" + std::string(65, '.')), 2, "more than 64 dots");
   expect_error(with_line(4, "samples = = 3"), 4, "expected TOML");
   expect_error(with_added(4, "samples = 300"), 5, "expected TOML");
   expect_error(with_line(6, "name = \"open"), 6, "expected TOML");

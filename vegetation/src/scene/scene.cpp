@@ -15,9 +15,27 @@ namespace sward {
 namespace {
 
 constexpr uintmax_t k_largest_scene = 4 << 20;
+constexpr int k_most_dots = 64;
+
+/// toml++ bounds the nesting of values (TOML_MAX_NESTED_VALUES) but not the parts of a dotted key, for each of which it
+/// recurses. A key stands on one line, so dots a line bound them.
+Expected<void> check_dots(std::string_view text, const std::string& name) {
+  int line = 1, dots = 0;
+  for (const char c : text) {
+    if (c == '\n') {
+      ++line;
+      dots = 0;
+    } else if (c == '.' && ++dots > k_most_dots) {
+      return fail(name + ":" + std::to_string(line) + ": more than " + std::to_string(k_most_dots) +
+                  " dots in a line, expected TOML with keys of few parts");
+    }
+  }
+  return {};
+}
 
 Expected<Scene> parse(std::string_view text, const std::string& name) {
   const scene_file::Context context{name};
+  if (auto checked = check_dots(text, name); !checked) return tl::unexpected(checked.error());
   const toml::parse_result parsed = toml::parse(text);
   if (!parsed) {
     return context.fail_at(parsed.error().source(), "expected TOML: " + std::string(parsed.error().description()));

@@ -7,6 +7,7 @@
 #define TOML_EXCEPTIONS 0
 #define TOML_HEADER_ONLY 0
 #define TOML_ENABLE_FORMATTERS 0
+#define TOML_MAX_NESTED_VALUES 16
 
 // The parser of toml++ 3.3 asserts, before it checks them and reports an error, some things that damaged files do not
 // hold. With NDEBUG it would hand the same to the optimiser as promises. So neither: its checks decide.
