@@ -41,11 +41,7 @@ Expected<Programs> build_programs(const std::vector<Layer>& layers, const gl::Sh
 
 }  // namespace
 
-bool gpu_can_time() {
-  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  const std::string_view renderer = name != nullptr ? name : "";
-  return renderer.find("llvmpipe") == std::string_view::npos && renderer.find("softpipe") == std::string_view::npos;
-}
+bool gpu_can_time() { return !gl::software_renderer(); }
 
 struct SceneRenderer::Impl {
   const SceneTerrain& terrain;

@@ -4,18 +4,20 @@
 #if defined(SWARD_MESH_SOURCE)
 #include <gtest/gtest.h>
 
+#include <sward/mesh_source/mesh_source.h>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <set>
-#include <sward/mesh_source/mesh_source.h>
 
 namespace {
 
 using namespace sward;
 
-View view_of_origin() { return View::look({0, -20, 5}, 1.5707963, -0.2, 1.0, {640, 480}, 0.1, 1000.0); }
+View view_of_origin() {
+  return View::look({0, -20, 5}, 1.5707963, -0.2, 1.0, {640, 480}, 0.1, 1000.0);
+}
 
 std::string write_file(const std::string& name, const std::string& text) {
   const auto path = std::filesystem::temp_directory_path() / ("sward_mesh_source_" + name);

@@ -30,14 +30,6 @@ Expected<void> check_size(const char* what, glm::ivec2 size) {
               " exceeds this device's largest texture, " + std::to_string(limit) + "; use a smaller one");
 }
 
-/// Software renderers filter anisotropically at fifty times the cost of a frame and blur magnified texels with it.
-bool software_renderer() {
-  const auto* text = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  const std::string_view name = text != nullptr ? text : "";
-  return name.find("llvmpipe") != name.npos || name.find("softpipe") != name.npos ||
-         name.find("SwiftShader") != name.npos;
-}
-
 void set_trilinear(GLuint texture) {
   glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -47,7 +39,7 @@ void set_trilinear(GLuint texture) {
       !epoxy_has_gl_extension("GL_ARB_texture_filter_anisotropic")) {
     return;
   }
-  if (software_renderer()) return;
+  if (software_renderer()) return;  // blurs magnified texels, too
   GLfloat most = 1;
   glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
   glTextureParameterf(texture, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, k_anisotropy));

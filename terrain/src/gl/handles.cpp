@@ -65,4 +65,11 @@ Expected<void> require_context() {
               " is current, sward needs at least 4.5");
 }
 
+bool software_renderer() {
+  const auto* text = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string_view name = text != nullptr ? text : "";
+  return name.find("llvmpipe") != name.npos || name.find("softpipe") != name.npos ||
+         name.find("SwiftShader") != name.npos;
+}
+
 }  // namespace sward::gl

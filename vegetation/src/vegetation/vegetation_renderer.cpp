@@ -109,8 +109,9 @@ void VegetationRenderer::draw(const gl::Frame& frame, const gl::GroundTextures& 
   Impl& self = *impl_;
   if (!self.classified) return;
   StageQueries& queries = self.queries[self.query_frame];
+  const std::vector<uint32_t> fertile = self.growth.needs_counts() ? queries.fertile() : std::vector<uint32_t>();
   queries.begin_growth();
-  self.growth.run(self.inputs(frame, ground), self.classification);
+  self.growth.run(self.inputs(frame, ground), self.classification, fertile);
   queries.end_growth();
 }
 

@@ -35,6 +35,19 @@ void attach_shapes(const BladeShapes& shapes, gl::Buffer& buffer, gl::Texture& t
   glTextureBuffer(texture.id(), GL_RGBA32F, buffer.id());
 }
 
+/// Mesa's software tessellator numbers the points of a draw with 16 bits: beyond that, lines are drawn again in place of
+/// those that follow. The most clusters of a species whose points still have a number each; odd spacing adds up to two
+/// segments, a line one point.
+GLsizei part_of(const Layer& layer, const Species& species) {
+  const int points = layer.cluster_size * (species.max_segments + 3);
+  return std::max(0xffff / points, 1);
+}
+
+void draw_parts(GLsizei clusters, GLsizei part) {
+  for (GLsizei first = 0; first < clusters; first += part)
+    glDrawArrays(GL_PATCHES, first, std::min(part, clusters - first));
+}
+
 }  // namespace
 
 gl::VertexArray make_cluster_array() {
@@ -52,10 +65,12 @@ void set_stream(const gl::VertexArray& array, GLuint buffer) {
 Expected<GrowthStage> GrowthStage::create(const Layer& layer, const gl::ShaderLibrary& shaders,
                                           const gl::Bindings& bindings) {
   GrowthStage stage;
+  stage.draws_in_parts_ = gl::software_renderer();
   stage.programs_.resize(k_kinds.size());
   for (const Species& species : layer.species) {
     const size_t row = row_of(species.kind);
     stage.program_of_.push_back(row);
+    stage.part_.push_back(part_of(layer, species));
     if (species.kind == PlantKind::none || stage.programs_[row]) continue;
     const KindProgram& kind = k_kinds[row];
     auto program = shaders.build({.name = kind.name,
@@ -76,7 +91,8 @@ Expected<GrowthStage> GrowthStage::create(const Layer& layer, const gl::ShaderLi
   return stage;
 }
 
-void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& classified) {
+void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& classified,
+                      std::span<const uint32_t> fertile) {
   const gl::Bindings& units = inputs.bindings;
   const StageBindings bound(units, inputs.frame.buffer(), inputs.species,
                             {{units.base_map, inputs.ground.base_map()},
@@ -86,13 +102,18 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
                              {units.blade_shape, blade_shape_.id()}});
   glPatchParameteri(GL_PATCH_VERTICES, 1);
   glBindVertexArray(vertex_array_.id());
-  for (const StreamPlace& place : classified.places()) {
+  for (size_t i = 0; i < classified.places().size(); ++i) {
+    const StreamPlace& place = classified.places()[i];
     const FeedbackPass& pass = classified.pass(place.pass);
     const GLuint program = programs_[program_of_[size_t(place.species)]].id();
     glUseProgram(program);
     glProgramUniform1i(program, k_species_location, place.species);
     set_stream(vertex_array_, pass.stream(place.stream));
-    glDrawTransformFeedbackStream(GL_PATCHES, pass.id(), GLuint(place.stream));
+    if (draws_in_parts_) {
+      draw_parts(GLsizei(fertile[i]), part_[size_t(place.species)]);
+    } else {
+      glDrawTransformFeedbackStream(GL_PATCHES, pass.id(), GLuint(place.stream));
+    }
   }
   set_stream(vertex_array_, 0);
   glBindVertexArray(0);

@@ -85,7 +85,10 @@ class GrowthStage {
  public:
   static Expected<GrowthStage> create(const Layer& layer, const gl::ShaderLibrary& shaders,
                                       const gl::Bindings& bindings);
-  void run(const StageInputs& inputs, const ClassificationStage& classified);
+  /// Whether `run` needs the counts of clusters, which means waiting for classification.
+  bool needs_counts() const { return draws_in_parts_; }
+  /// `fertile`: clusters in each of the classification's streams; read only where needs_counts().
+  void run(const StageInputs& inputs, const ClassificationStage& classified, std::span<const uint32_t> fertile);
 
  private:
   std::vector<gl::Program> programs_;  ///< By row of the table of kinds; empty where the layer has none of it.
@@ -93,6 +96,8 @@ class GrowthStage {
   gl::Buffer blade_shape_buffer_;
   gl::Texture blade_shape_;
   gl::VertexArray vertex_array_;
+  std::vector<GLsizei> part_;  ///< By species: most clusters in a draw, where draws go in parts.
+  bool draws_in_parts_ = false;
 };
 
 class ReadBackStage {

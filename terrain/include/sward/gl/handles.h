@@ -82,4 +82,8 @@ class DefaultUnpack {
 /// the first other GL call without a context.
 Expected<void> require_context();
 
+/// Whether the current context draws on the CPU (llvmpipe, softpipe, SwiftShader): such drivers filter anisotropically
+/// at fifty times the cost of a frame, cannot time themselves, and have limits of their own.
+bool software_renderer();
+
 }  // namespace sward::gl
