@@ -18,7 +18,7 @@ Expected<Scene> read_scene(const std::string& name) {
   std::error_code ignored;
   // A bare word that is no file can only mean a built-in scene, and the error then lists those.
   const bool word = name.find_first_of("./") == std::string::npos;
-  if (word && !std::filesystem::exists(name, ignored)) return builtin_scene(name);
+  if (word && !std::filesystem::is_regular_file(name, ignored)) return builtin_scene(name);
   return load_scene(name);
 }
 

@@ -18,8 +18,10 @@ namespace {
 
 Expected<Scene> read_scene(const std::string& name, const osgDB::Options* options) {
   const std::string bare = osgDB::getNameLessExtension(name);
-  for (const std::string& candidate : {name, bare})
-    if (const std::string found = osgDB::findDataFile(candidate, options); !found.empty()) return load_scene(found);
+  for (const std::string& candidate : {name, bare}) {
+    const std::string found = osgDB::findDataFile(candidate, options);
+    if (osgDB::fileType(found) == osgDB::REGULAR_FILE) return load_scene(found);
+  }
   return builtin_scene(bare);
 }
 
