@@ -33,7 +33,7 @@ Leaf grass_leaf(SpeciesParams species, vec4 ground_and_age, float s, float acros
   Leaf leaf;
   leaf.albedo = ground_and_age.rgb * mix(fresh, species.age_tint.rgb, dry) * (own * vein);
   // The base map shows leaves and the shade between them together; a leaf alone is brighter.
-  leaf.albedo *= 3.1 / (1.0 + root_shade);
+  leaf.albedo *= 2.7 / (1.0 + root_shade);
   // What comes down has met other leaves on its way.
   vec3 filtered = leaf.albedo / max(max(leaf.albedo.r, leaf.albedo.g), 1.0e-4);
   leaf.sky = canopy_light(root_shade, s) * mix(vec3(1.0), filtered, 0.5 - 0.35 * s);

@@ -204,6 +204,21 @@ TEST_F(Grow, BladesFollowTheirCurve) {
   }
 }
 
+TEST_F(Grow, EveryPlantIsDrawnHoweverManyPointsADrawHas) {
+  // Three plants on each of 512 triangles; of 63 segments they have more points than 16 bits can number, of 15 not.
+  size_t covered[2];
+  for (const int many : {0, 1}) {
+    Layer layer = posts();
+    layer.density = 5;
+    layer.species[0].max_segments = many == 1 ? 63 : 15;
+    layer.species[0].width_m = {0.3f, 0.3f};
+    Patch patch(layer, plain_map(k_side, 8, k_green));
+    covered[many] = count_lit(render(patch, from_above(14)));
+    ASSERT_GT(patch.plants_of_gpu().size(), size_t(0x10000 / 64));
+  }
+  EXPECT_NEAR(double(covered[1]) / double(covered[0]), 1.0, 0.03);
+}
+
 /// The patch's level ground, drawn.
 class Ground {
  public:
