@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <sward/terrain/error.h>
 #include <string>
 #include <string_view>
