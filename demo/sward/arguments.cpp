@@ -27,6 +27,8 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   return parts;
 }
 
+constexpr int k_no_samples = -1;  // "0" asks for none, which is out of range; 0 stands for "max"
+
 }  // namespace
 
 Expected<std::vector<double>> parse_numbers(const std::string& text, size_t least, size_t most) {
@@ -65,9 +67,9 @@ Expected<CameraArgument> parse_camera(const std::string& text) {
 Expected<int> parse_samples(const std::string& text) {
   int samples = 0;
   if (text == "max") return 0;
-  if (!parse_whole(std::string_view(text), samples) || samples == 0)
+  if (!parse_whole(std::string_view(text), samples))
     return fail("\"" + text + "\" is no number of samples; expected 1 or more, or max");
-  return samples;
+  return samples == 0 ? k_no_samples : samples;
 }
 
 }  // namespace sward::tool

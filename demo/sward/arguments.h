@@ -25,7 +25,7 @@ struct CameraArgument {
 };
 Expected<CameraArgument> parse_camera(const std::string& text);
 
-/// A count of samples, or "max" (0).
+/// A count of samples, or "max" (0). Counts below 1 come out negative, for the command to refuse.
 Expected<int> parse_samples(const std::string& text);
 
 /// An option's form as CLI11 checks it: turns a parser into "" or the complaint.
