@@ -241,7 +241,7 @@ TEST_F(CliMesh, TheBoundHoldsForEverySample) {
   std::string poses = "time,x,y,z,yaw,pitch\n";
   for (size_t i = 0; i < cameras.size(); ++i) poses += cameras[i].row(double(i) / 60);
   cli::write_file(inputs() / "poses.csv", poses);
-  const std::string options = " --triangles 400 --flight '" + (inputs() / "poses.csv").string() + "' ";
+  const std::string options = " --triangles 1500 --flight '" + (inputs() / "poses.csv").string() + "' ";
   ASSERT_EQ(run("mesh " + scene() + options + "--timings t.csv").status, 0);
   const auto rows = cli::read_csv(folder() / "t.csv");
   std::vector<double> ratios;
