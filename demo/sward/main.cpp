@@ -25,11 +25,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", SWARD_VERSION);
   app.require_subcommand(1);
   const sward::tool::Command commands[] = {
-      sward::tool::add_render(app), sward::tool::add_fly(app),  sward::tool::add_mesh(app),
-      sward::tool::add_plants(app), sward::tool::add_info(app),
-#ifdef SWARD_WINDOW
-      sward::tool::add_view(app),
-#endif
+      sward::tool::add_view(app), sward::tool::add_render(app), sward::tool::add_fly(app),
+      sward::tool::add_mesh(app), sward::tool::add_plants(app), sward::tool::add_info(app),
   };
   try {
     app.parse(argc, argv);

@@ -136,6 +136,12 @@ TEST_F(CliBadFiles, PicturesOfBareBuilds) {
 }
 #endif
 
+TEST_F(CliBadFiles, ViewWithoutADisplay) {
+  const cli::Result result = run("view " + scene(), "env -u DISPLAY -u WAYLAND_DISPLAY");
+  expect_error(result, 1);
+  EXPECT_NE(result.err.find("sward render"), std::string::npos) << result.err;
+}
+
 // A file that was there before stays as it was when the work fails.
 TEST_F(CliBadFiles, OlderOutputsSurviveAFailure) {
   cli::write_file(folder() / "t.csv", "older\n");

@@ -19,8 +19,6 @@ Command add_fly(CLI::App& parent);
 Command add_mesh(CLI::App& parent);
 Command add_plants(CLI::App& parent);
 Command add_info(CLI::App& parent);
-#ifdef SWARD_WINDOW
 Command add_view(CLI::App& parent);
-#endif
 
 }  // namespace sward::tool
