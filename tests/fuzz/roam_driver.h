@@ -57,7 +57,7 @@ inline const roam_support::Terrain& terrain_of_kind(int kind) {
   return terrains[size_t(kind) % terrains.size()];
 }
 
-inline sward::View read_view(Input& in, const sward::HeightField& field) {
+inline sward::View read_view(Input& in, const sward::Lattice& field) {
   const glm::dvec2 low = field.min_corner(), high = field.max_corner();
   const glm::dvec3 eye(in.between(low.x - 50, high.x + 50), in.between(low.y - 50, high.y + 50), in.between(-200, 400));
   const double azimuth = in.between(-4, 4), pitch = in.between(-1.6, 1.6), fov = in.between(0.02, 2.5);
@@ -99,10 +99,10 @@ inline std::string step(Input& in, sward::roam::RoamEngine& engine) {
       return "";
     case 1:
     case 2:
-      if (!engine.update(read_view(in, tree.field()))) return "";
+      if (!engine.update(read_view(in, tree.lattice()))) return "";
       return engine.visible_count() > engine.options().max_triangles ? "the budget is exceeded" : "";
     case 3: {
-      const int deepest = std::min(tree.field().max_level() + 2, sward::k_max_level - 1);
+      const int deepest = std::min(tree.lattice().max_level + 2, sward::k_max_level - 1);
       const uint32_t leaf =
           find_node(tree, in.word(), [&](uint32_t n) { return tree.is_leaf(n) && tree.id[n].level() < deepest; });
       if (leaf == sward::roam::k_none) return "";
@@ -126,7 +126,8 @@ inline std::string step(Input& in, sward::roam::RoamEngine& engine) {
 inline std::string run(std::span<const uint8_t> bytes) {
   Input in(bytes);
   const roam_support::Terrain& terrain = terrain_of_kind(in.byte());
-  sward::roam::RoamEngine engine(*terrain.bounds, {});
+  const sward::FieldSurface surface(*terrain.bounds);
+  sward::roam::RoamEngine engine(surface, {});
   while (!in.empty()) {
     if (std::string fault = step(in, engine); !fault.empty()) return fault;
     if (const auto valid = engine.validate(); !valid) return valid.error().message;

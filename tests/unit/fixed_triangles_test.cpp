@@ -156,7 +156,8 @@ TEST(TriangleId, OfTheMeshLeadsToTheMeshsCorners) {
   const Terrain terrain = gentle_terrain();
   RoamOptions options;
   options.max_triangles = 500;
-  sward::roam::RoamEngine engine(*terrain.bounds, options);
+  const sward::FieldSurface surface(*terrain.bounds);
+  sward::roam::RoamEngine engine(surface, options);
   for (int i = 0; i < 20; ++i) {
     ASSERT_TRUE(engine.update(low_view(*terrain.field, i)).has_value());
     const sward::roam::RoamTree& tree = engine.tree();

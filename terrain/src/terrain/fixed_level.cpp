@@ -68,7 +68,8 @@ class Collector {
   uint32_t refine(uint32_t node);
 
   const RoamTree& tree_;
-  const HeightField& field_;
+  const Surface& surface_;
+  const Lattice& lattice_;
   const View& view_;
   const FixedLevelOptions& options_;
   FixedTriangles& out_;
@@ -80,15 +81,16 @@ class Collector {
 
 Collector::Collector(const RoamTree& tree, const View& view, const FixedLevelOptions& options, FixedTriangles& out)
     : tree_(tree),
-      field_(tree.field()),
+      surface_(tree.surface()),
+      lattice_(tree.lattice()),
       view_(view),
       options_(options),
       out_(out),
       planes_(frustum_planes(view)),
       clip_(view.clip_from_relative()),
       horizon2_(double(options.horizon_m) * options.horizon_m) {
-  const double cells = double(int64_t(1) << field_.root_bits());
-  level_area_ = std::ldexp(0.5 * cells * cells * field_.desc().spacing.x * field_.desc().spacing.y, -options.level);
+  const double cells = double(int64_t(1) << lattice_.root_bits);
+  level_area_ = std::ldexp(0.5 * cells * cells * lattice_.spacing.x * lattice_.spacing.y, -options.level);
 }
 
 void Collector::run() {
@@ -110,7 +112,7 @@ Corner Collector::corner(uint32_t vertex) const {
 Corner Collector::middle(const Corner& a, const Corner& b) const {
   Corner m;
   m.lattice = a.lattice + (b.lattice - a.lattice) / 2;
-  m.world = glm::dvec3(field_.world_xy(m.lattice), 0.5 * (a.world.z + b.world.z));
+  m.world = glm::dvec3(lattice_.world_xy(m.lattice), 0.5 * (a.world.z + b.world.z));
   for (int i = 0; i < 6; ++i) m.plane[i] = 0.5 * (a.plane[i] + b.plane[i]);
   return m;
 }
@@ -146,17 +148,8 @@ bool Collector::faces_away(const Triangle& t) const {
 
 // Whether no sample in the triangle's rectangle is valid; such a triangle is smaller than the hole it lies in.
 bool Collector::all_holes(const Triangle& t) const {
-  if (field_.hole_count() == 0) return false;
   const LatticePoint a = t.apex.lattice, b = t.left.lattice, c = t.right.lattice;
-  const int step = field_.sample_step();
-  const LatticePoint low = glm::min(a, glm::min(b, c)) / step;
-  const LatticePoint high = (glm::max(a, glm::max(b, c)) + (step - 1)) / step;
-  const int last_column = std::min(high.x, field_.desc().columns - 1);
-  const int last_row = std::min(high.y, field_.desc().rows - 1);
-  for (int row = low.y; row <= last_row; ++row)
-    for (int column = low.x; column <= last_column; ++column)
-      if (!field_.is_hole(column, row)) return false;
-  return true;
+  return surface_.all_holes({glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))});
 }
 
 float Collector::screen_area(const Triangle& t) const {
@@ -193,7 +186,7 @@ void Collector::split_flat(const Triangle& t, unsigned active) {
   const Corner m = middle(t.left, t.right);
   for (int turn = 0; turn < 2; ++turn) {
     Triangle child{t.id.child(turn), m, turn == 0 ? t.apex : t.right, turn == 0 ? t.left : t.apex, Cover::inside};
-    child.cover = cover_of(field_, {child.apex.lattice, child.left.lattice, child.right.lattice}, t.cover);
+    child.cover = cover_of(lattice_, {child.apex.lattice, child.left.lattice, child.right.lattice}, t.cover);
     unsigned still_active = active;
     if (!culled(child, 0.0, still_active)) split_flat(child, still_active);
   }
@@ -210,7 +203,7 @@ void Collector::emit(const Triangle& t, uint32_t split_node) {
   f.to_right = glm::vec3(c - a);
   f.id = t.id;
   f.surface = split_node == k_none ? 0 : refine(split_node);
-  const glm::dvec2 gradient = field_.data_gradient(glm::dvec2(a + b + c) / 3.0);
+  const glm::dvec2 gradient = surface_.data_gradient(glm::dvec2(a + b + c) / 3.0);
   f.area = float(level_area_ * std::sqrt(1.0 + glm::dot(gradient, gradient)));
   f.screen_area = screen_area(t);
   f.distance = float(distance);

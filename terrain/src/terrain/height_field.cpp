@@ -151,9 +151,10 @@ Expected<HeightField> HeightField::create(const HeightFieldDesc& desc, Samples s
   HeightField field;
   field.desc_ = desc;
   const glm::ivec2 cells(desc.columns - 1, desc.rows - 1);
-  field.root_bits_ = choose_root_bits(cells);
-  field.root_squares_ = squares_for(cells, field.root_bits_);
-  field.max_level_ = field.data_level();
+  Lattice& lattice = field.lattice_;
+  lattice = {desc.columns, desc.rows, desc.spacing, desc.origin, choose_root_bits(cells), {}, 0};
+  lattice.root_squares = squares_for(cells, lattice.root_bits);
+  lattice.max_level = lattice.data_level();
   if (auto taken = field.adopt(std::move(samples), holes); !taken) return tl::unexpected<Error>(taken.error());
   field.measure_range();
   if (!(field.height_range_[1] - field.height_range_[0] <= k_max_span_m)) {
@@ -197,14 +198,14 @@ void HeightField::set_up_relief() {
     relief_bound_.assign(1, 0.0);
     return;
   }
-  max_level_ = std::min(data_level() + below, k_max_level);
-  relief_bound_.assign(size_t(max_level_ - data_level()) + 1, 0.0);
+  lattice_.max_level = std::min(data_level() + below, k_max_level);
+  relief_bound_.assign(size_t(max_level() - data_level()) + 1, 0.0);
   // With no height there is nothing to evaluate.
   if (relief.roughness == 0.0f) return;
-  octaves_ = (max_level_ - data_level()) / 2;
+  octaves_ = (max_level() - data_level()) / 2;
   first_amplitude_ = double(relief.roughness) * std::sqrt(desc_.spacing.x * desc_.spacing.y);
   relief_amplitude_ = first_amplitude_ * relief::k_noise_limit * (2.0 - std::ldexp(2.0, -octaves_));
-  relief_bound_ = relief::bound_table(octaves_, max_level_ - data_level());
+  relief_bound_ = relief::bound_table(octaves_, max_level() - data_level());
   for (double& bound : relief_bound_) bound *= first_amplitude_;
 
   relief_shares_.assign(size_t(desc_.columns) * size_t(desc_.rows), 0);
@@ -224,7 +225,7 @@ void HeightField::set_up_relief() {
 
 uint64_t HeightField::fingerprint() const {
   Hash hash;
-  for (const int number : {desc_.columns, desc_.rows, root_bits_, max_level_, octaves_}) hash.add(uint64_t(number));
+  for (const int number : {desc_.columns, desc_.rows, root_bits(), max_level(), octaves_}) hash.add(uint64_t(number));
   for (const double number : {desc_.spacing.x, desc_.spacing.y, desc_.scale, first_amplitude_}) hash.add(number);
   hash.add(uint64_t(samples_.index()));
   std::visit([&](const auto& values) { hash.add(values.data(), values.size() * sizeof(values[0])); }, samples_);

@@ -115,42 +115,12 @@ bool HeightField::is_hole(int column, int row) const {
   return (holes_[index / 64] >> (index % 64) & 1) != 0;
 }
 
-glm::dvec2 HeightField::min_corner() const {
-  return world_xy({0, (desc_.rows - 1) * sample_step()});
-}
-glm::dvec2 HeightField::max_corner() const {
-  return world_xy({(desc_.columns - 1) * sample_step(), 0});
-}
-
-glm::dvec2 HeightField::world_xy(LatticePoint p) const {
-  const double inverse = 1.0 / double(sample_step());
-  return {desc_.origin.x + (p.x * inverse - 0.5 * (desc_.columns - 1)) * desc_.spacing.x,
-          desc_.origin.y + (0.5 * (desc_.rows - 1) - p.y * inverse) * desc_.spacing.y};
-}
-
-glm::dvec2 HeightField::lattice_from_world(glm::dvec2 xy) const {
-  const double column = (xy.x - desc_.origin.x) / desc_.spacing.x + 0.5 * (desc_.columns - 1);
-  const double row = 0.5 * (desc_.rows - 1) - (xy.y - desc_.origin.y) / desc_.spacing.y;
-  // A point computed to lie on the border may come out a rounding error beyond it.
-  constexpr double k_slack = 1e-7;
-  const double last_column = desc_.columns - 1, last_row = desc_.rows - 1;
-  if (!(column >= -k_slack && column <= last_column + k_slack && row >= -k_slack && row <= last_row + k_slack)) {
-    return glm::dvec2(std::numeric_limits<double>::quiet_NaN());
-  }
-  return glm::dvec2(std::clamp(column, 0.0, last_column), std::clamp(row, 0.0, last_row)) * double(sample_step());
-}
-
-bool HeightField::inside(LatticePoint p) const {
-  const int step = sample_step();
-  return p.x >= 0 && p.y >= 0 && p.x <= (desc_.columns - 1) * step && p.y <= (desc_.rows - 1) * step;
-}
-
 double HeightField::linear_height(LatticePoint p) const {
-  return interpolate(p, k_root_bits - root_bits_, [this](int column, int row) { return sample(column, row); });
+  return interpolate(p, k_root_bits - root_bits(), [this](int column, int row) { return sample(column, row); });
 }
 
 double HeightField::relief_share(LatticePoint p) const {
-  return interpolate(p, k_root_bits - root_bits_, [this](int column, int row) {
+  return interpolate(p, k_root_bits - root_bits(), [this](int column, int row) {
     const int c = std::clamp(column, 0, desc_.columns - 1), r = std::clamp(row, 0, desc_.rows - 1);
     return double(relief_shares_[size_t(r) * size_t(desc_.columns) + size_t(c)]) * (1.0 / 255.0);
   });
@@ -159,23 +129,23 @@ double HeightField::relief_share(LatticePoint p) const {
 double HeightField::height(LatticePoint p) const {
   const double base = linear_height(p);
   if (octaves_ == 0) return base;
-  const double sum = relief::octave_sum(p, k_root_bits - root_bits_, octaves_, desc_.relief.seed);
+  const double sum = relief::octave_sum(p, k_root_bits - root_bits(), octaves_, desc_.relief.seed);
   return sum == 0.0 ? base : base + first_amplitude_ * relief_share(p) * sum;
 }
 
 double HeightField::height(glm::dvec2 xy) const {
-  const glm::dvec2 lattice = lattice_from_world(xy);
+  const glm::dvec2 lattice = lattice_.from_world(xy);
   if (std::isnan(lattice.x)) return lattice.x;
-  const Weighted place = locate(*this, lattice, max_level_);
+  const Weighted place = locate(*this, lattice, max_level());
   double z = 0.0;
   for (size_t i = 0; i < 3; ++i) z += place.weight[i] * height(place.corner[i]);
   return z;
 }
 
 glm::dvec3 HeightField::normal(glm::dvec2 xy) const {
-  const glm::dvec2 lattice = lattice_from_world(xy);
+  const glm::dvec2 lattice = lattice_.from_world(xy);
   if (std::isnan(lattice.x)) return {0.0, 0.0, 1.0};
-  const Weighted place = locate(*this, lattice, max_level_);
+  const Weighted place = locate(*this, lattice, max_level());
   std::array<glm::dvec3, 3> corner;
   for (size_t i = 0; i < 3; ++i) corner[i] = {world_xy(place.corner[i]), height(place.corner[i])};
   const glm::dvec3 n = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
@@ -202,7 +172,7 @@ glm::dvec2 HeightField::data_gradient(glm::dvec2 xy) const {
 
 glm::dvec2 HeightField::relief_gradient(LatticePoint p) const {
   if (octaves_ == 0) return glm::dvec2(0.0);
-  const int step_bits = k_root_bits - root_bits_;
+  const int step_bits = k_root_bits - root_bits();
   const glm::dvec3 sum = relief::octave_sum_with_gradient(p, step_bits, octaves_, desc_.relief.seed);
   // The strength has a kink at the edges of the data's triangles: there this is the mean of both sides.
   const LatticePoint east(1, 0), south(0, 1);
@@ -215,11 +185,11 @@ glm::dvec2 HeightField::relief_gradient(LatticePoint p) const {
 
 double HeightField::relief_bound(int level) const {
   const int below = std::max(level, data_level()) - data_level();
-  return level >= max_level_ ? 0.0 : relief_bound_[size_t(below)];
+  return level >= max_level() ? 0.0 : relief_bound_[size_t(below)];
 }
 
 double HeightField::relief_bound(LatticePoint centre, int level) const {
-  if (octaves_ == 0 || level >= max_level_) return 0.0;
+  if (octaves_ == 0 || level >= max_level()) return 0.0;
   const relief::Window window = relief::bound_window(*this, centre, level);
   uint8_t strongest = 0;
   for (int row = window.first.y; row <= window.last.y; ++row) {

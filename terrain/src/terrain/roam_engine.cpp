@@ -28,8 +28,8 @@ Expected<void> check_options(const RoamOptions& options, uint32_t drawable_roots
   return {};
 }
 
-RoamEngine::RoamEngine(const Bounds& bounds, const RoamOptions& options) : tree_(bounds), options_(options) {
-  tree_.vertices.rebase(tree_.field().desc().origin);
+RoamEngine::RoamEngine(const Surface& surface, const RoamOptions& options) : tree_(surface), options_(options) {
+  tree_.vertices.rebase(tree_.lattice().origin);
   grow_arrays();
   for (uint32_t vertex = 0; vertex < tree_.vertices.world.size(); ++vertex) take_vertex(vertex);
 }

@@ -23,7 +23,7 @@ Expected<void> check_options(const RoamOptions& options, uint32_t drawable_roots
 /// leaves. split() and merge() keep all of it consistent; update() adapts to a view.
 class RoamEngine {
  public:
-  RoamEngine(const Bounds& bounds, const RoamOptions& options);
+  RoamEngine(const Surface& surface, const RoamOptions& options);
 
   Expected<RoamStats> update(const View& view);
   Expected<void> set_options(const RoamOptions& options);

@@ -21,12 +21,20 @@ uint64_t first_revision() {
 }  // namespace
 
 struct RoamMesh::Impl {
+  std::unique_ptr<Surface> own_surface;  // of meshes over a field's bounds
   roam::RoamEngine engine;
   uint64_t revision = first_revision();
 };
 
 Expected<RoamMesh> RoamMesh::create(const Bounds& bounds, const RoamOptions& options) {
-  auto impl = std::make_unique<Impl>(Impl{roam::RoamEngine(bounds, options)});
+  auto surface = std::make_unique<FieldSurface>(bounds);
+  Expected<RoamMesh> mesh = create(*surface, options);
+  if (mesh) mesh->impl_->own_surface = std::move(surface);
+  return mesh;
+}
+
+Expected<RoamMesh> RoamMesh::create(const Surface& surface, const RoamOptions& options) {
+  auto impl = std::make_unique<Impl>(Impl{nullptr, roam::RoamEngine(surface, options)});
   if (auto checked = impl->engine.set_options(options); !checked) return tl::unexpected<Error>(checked.error());
   return RoamMesh(std::move(impl));
 }

@@ -171,8 +171,8 @@ RoamEngine::Ghost RoamEngine::ghost_child(const Ghost& of, int turn, const Lanes
   child.left = turn == 0 ? of.apex : of.right;
   child.right = turn == 0 ? of.left : of.apex;
   child.level = of.level + 1;
-  child.cover = cover_of(tree_.field(), child.corners, of.cover);
-  const float bound = tree_.bounds().bound(centre_of(child.corners), child.level);
+  child.cover = cover_of(tree_.lattice(), child.corners, of.cover);
+  const float bound = tree_.surface().bound(centre_of(child.corners), child.level);
   child.cull = child.cover == Cover::padding
                    ? k_out
                    : projection_.assess(child.apex, child.left, child.right, bound, of.cull).cull;
@@ -190,7 +190,7 @@ int RoamEngine::split_cost(const Chain& chain) const {
   for (int i = chain.length; i-- > 0;) {
     const Ghost own = ghost(chain.node[i]);
     const LatticePoint m = centre_of(own.corners);
-    const Lanes middle = projection_.project(glm::dvec3(tree_.field().world_xy(m), tree_.field().height(m)));
+    const Lanes middle = projection_.project(glm::dvec3(tree_.lattice().world_xy(m), tree_.surface().height(m)));
     const Ghost children[2] = {ghost_child(own, 0, middle), ghost_child(own, 1, middle)};
     cost += seen(children[0]) + seen(children[1]) - seen(own);
     if (across) cost += seen(ghost_child(*across, 0, middle)) + seen(ghost_child(*across, 1, middle)) - seen(*across);

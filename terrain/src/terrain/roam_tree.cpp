@@ -34,16 +34,15 @@ bool reaches_into(const TriangleCorners& corners, LatticePoint limit) {
 
 }  // namespace
 
-Cover cover_of(const HeightField& field, const TriangleCorners& corners, Cover parent) {
+Cover cover_of(const Lattice& lattice, const TriangleCorners& corners, Cover parent) {
   if (parent != Cover::straddling) return parent;
-  const LatticePoint limit{(field.desc().columns - 1) * field.sample_step(),
-                           (field.desc().rows - 1) * field.sample_step()};
+  const LatticePoint limit = lattice.last();
   const auto within = [&](LatticePoint p) { return p.x <= limit.x && p.y <= limit.y; };
   if (within(corners.apex) && within(corners.left) && within(corners.right)) return Cover::inside;
   return reaches_into(corners, limit) ? Cover::straddling : Cover::padding;
 }
 
-uint32_t VertexPool::add(const HeightField& field, LatticePoint point) {
+uint32_t VertexPool::add(const Surface& surface, LatticePoint point) {
   uint32_t slot = uint32_t(lattice.size());
   if (free_.empty()) {
     lattice.emplace_back();
@@ -56,8 +55,8 @@ uint32_t VertexPool::add(const HeightField& field, LatticePoint point) {
     free_.pop_back();
   }
   lattice[slot] = point;
-  world[slot] = glm::dvec3(field.world_xy(point), field.height(point));
-  gpu[slot] = {glm::vec3(world[slot] - origin), glm::vec2(field.relief_gradient(point))};
+  world[slot] = glm::dvec3(surface.lattice().world_xy(point), surface.height(point));
+  gpu[slot] = {glm::vec3(world[slot] - origin), glm::vec2(surface.relief_gradient(point))};
   alive[slot] = 1;
   mark_changed(slot);
   return slot;
@@ -90,14 +89,14 @@ void VertexPool::mark_changed(uint32_t slot) {
   changed.push_back(slot);
 }
 
-RoamTree::RoamTree(const Bounds& bounds) : bounds_(&bounds), field_(&bounds.field()) {
+RoamTree::RoamTree(const Surface& surface) : surface_(&surface), lattice_(surface.lattice()) {
   add_roots();
 }
 
 void RoamTree::add_roots() {
-  const glm::ivec2 squares = field_->root_squares();
+  const glm::ivec2 squares = lattice_.root_squares;
   for (int row = 0; row <= squares.y; ++row)
-    for (int column = 0; column <= squares.x; ++column) vertices.add(*field_, LatticePoint{column, row} * k_root_side);
+    for (int column = 0; column <= squares.x; ++column) vertices.add(*surface_, LatticePoint{column, row} * k_root_side);
   const auto slot = [&](int column, int row) { return uint32_t(row * (squares.x + 1) + column); };
   for (int row = 0; row < squares.y; ++row) {
     for (int column = 0; column < squares.x; ++column) {
@@ -114,7 +113,7 @@ void RoamTree::add_roots() {
 
 // Root 0 touches the west and the north neighbour's root 1, root 1 the east and the south neighbour's root 0.
 void RoamTree::link_roots(uint32_t square) {
-  const glm::ivec2 squares = field_->root_squares();
+  const glm::ivec2 squares = lattice_.root_squares;
   const int column = int(square) % squares.x, row = int(square) / squares.x;
   const auto root = [&](int c, int r, uint32_t which) {
     const bool exists = c >= 0 && r >= 0 && c < squares.x && r < squares.y;
@@ -149,8 +148,8 @@ void RoamTree::set_node(uint32_t node, TriangleId node_id, Corners slots, uint32
   parent[node] = parent_node;
   child[node] = k_none;
   const TriangleCorners points = corners(node);
-  cover[node] = cover_of(*field_, points, parent_cover);
-  corner[node].bound = cover[node] == Cover::padding ? -1.0f : bounds_->bound(centre_of(points), node_id.level());
+  cover[node] = cover_of(lattice_, points, parent_cover);
+  corner[node].bound = cover[node] == Cover::padding ? -1.0f : surface_->bound(centre_of(points), node_id.level());
 }
 
 TriangleCorners RoamTree::corners(uint32_t node) const {
@@ -197,7 +196,7 @@ void RoamTree::replace_neighbour(uint32_t node, uint32_t old_node, uint32_t new_
 
 void RoamTree::split_diamond(uint32_t node) {
   const uint32_t base = neighbour[node].base;
-  const uint32_t middle = vertices.add(*field_, centre_of(corners(node)));
+  const uint32_t middle = vertices.add(*surface_, centre_of(corners(node)));
   make_children(node, middle);
   leaf_count_ += 1;
   if (base == k_none) return;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <sward/terrain/bounds.h>
+#include <sward/terrain/surface.h>
 #include <sward/terrain/fixed_triangles.h>
 #include <sward/terrain/roam_mesh.h>
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace sward::roam {
 enum class Cover : uint8_t { inside, straddling, padding };
 
 /// `parent` spares the test where it decides.
-Cover cover_of(const HeightField& field, const TriangleCorners& corners, Cover parent);
+Cover cover_of(const Lattice& lattice, const TriangleCorners& corners, Cover parent);
 
 /// The lattice point that a split of the triangle creates.
 inline LatticePoint centre_of(const TriangleCorners& c) {
@@ -32,7 +32,7 @@ inline TriangleCorners child_corners(const TriangleCorners& c, int turn) {
 /// Vertices in stable slots. Every vertex but those of the root squares' corners is the centre of one split diamond.
 class VertexPool {
  public:
-  uint32_t add(const HeightField& field, LatticePoint point);
+  uint32_t add(const Surface& surface, LatticePoint point);
   void free(uint32_t slot);
   /// Forgets what was written so far.
   void begin_changes();
@@ -78,10 +78,10 @@ struct Chain {
 /// of root square s. Knows nothing of views.
 class RoamTree {
  public:
-  explicit RoamTree(const Bounds& bounds);
+  explicit RoamTree(const Surface& surface);
 
-  const HeightField& field() const { return *field_; }
-  const Bounds& bounds() const { return *bounds_; }
+  const Surface& surface() const { return *surface_; }
+  const Lattice& lattice() const { return lattice_; }
   uint32_t root_count() const { return root_count_; }
   size_t size() const { return id.size(); }
   uint32_t leaf_count() const { return leaf_count_; }
@@ -121,8 +121,8 @@ class RoamTree {
   void replace_neighbour(uint32_t node, uint32_t old_node, uint32_t new_node);
   void join_as_leaf(uint32_t node);
 
-  const Bounds* bounds_;
-  const HeightField* field_;
+  const Surface* surface_;
+  Lattice lattice_;
   uint32_t root_count_ = 0;
   uint32_t leaf_count_ = 0;
   std::vector<uint32_t> free_pairs_;

@@ -46,8 +46,8 @@ class Validator {
             "corners differ from those of its id");
     for (const uint32_t slot : {t_.corner[node].apex, t_.corner[node].left, t_.corner[node].right}) {
       require(t_.vertices.alive[slot], node, "uses a dead vertex");
-      const glm::dvec3 world(t_.field().world_xy(t_.vertices.lattice[slot]),
-                             t_.field().height(t_.vertices.lattice[slot]));
+      const glm::dvec3 world(t_.lattice().world_xy(t_.vertices.lattice[slot]),
+                             t_.surface().height(t_.vertices.lattice[slot]));
       require(world == t_.vertices.world[slot], node, "has a vertex off the height field");
     }
     const uint32_t parent = t_.parent[node];
@@ -103,7 +103,7 @@ class Validator {
 
   bool on_border(uint32_t a, uint32_t b) const {
     const LatticePoint p = t_.vertices.lattice[a], q = t_.vertices.lattice[b];
-    const LatticePoint far = t_.field().root_squares() * k_root_side;
+    const LatticePoint far = t_.lattice().root_squares * k_root_side;
     return (p.x == q.x && (p.x == 0 || p.x == far.x)) || (p.y == q.y && (p.y == 0 || p.y == far.y));
   }
 
@@ -138,7 +138,7 @@ class Validator {
     size_t alive_nodes = 0, alive_vertices = 0;
     for (uint32_t node = 0; node < t_.size(); ++node) alive_nodes += t_.is_alive(node);
     for (const uint8_t alive : t_.vertices.alive) alive_vertices += alive;
-    const glm::ivec2 squares = t_.field().root_squares();
+    const glm::ivec2 squares = t_.lattice().root_squares;
     const size_t root_vertices = size_t(squares.x + 1) * size_t(squares.y + 1);
     require(alive_nodes == nodes_, 0, "nodes live that no root leads to");
     require(alive_vertices == root_vertices + diamonds_, 0, "vertices live that no diamond owns");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <sward/terrain/error.h>
+#include <sward/terrain/lattice.h>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -10,14 +11,6 @@
 #include <vector>
 
 namespace sward {
-
-/// Lattice of bintree vertices. A root square is always 2^18 units wide, so that every vertex of every level is a pair
-/// of integers; root square (c, r) spans [c, c+1] x [r, r+1] times k_root_side. x runs east, y runs SOUTH (image rows).
-using LatticePoint = glm::ivec2;
-inline constexpr int k_root_bits = 18;
-inline constexpr int k_root_side = 1 << k_root_bits;
-/// Deepest level of the 64-bit triangle id.
-inline constexpr int k_max_level = 35;
 
 /// Relief below the data: deterministic gradient noise in octaves whose lattices contain the data's own samples, where
 /// it is zero. Part of the height function: mesh, bounds, queries and plants agree on it.
@@ -63,16 +56,13 @@ class HeightField {
                                       std::span<const uint8_t> holes = {});
 
   const HeightFieldDesc& desc() const { return desc_; }
-  /// log2 of the cells along a root square's side, >= 1.
-  int root_bits() const { return root_bits_; }
-  /// Root squares, columns by rows.
-  glm::ivec2 root_squares() const { return root_squares_; }
-  /// Level whose triangles have legs one sample spacing long: 2 root_bits().
-  int data_level() const { return 2 * root_bits_; }
-  /// Deepest level of the mesh: data_level(), deeper with relief.
-  int max_level() const { return max_level_; }
-  /// Lattice units between samples.
-  int sample_step() const { return k_root_side >> root_bits_; }
+  /// The bintree's lattice over this field.
+  const Lattice& lattice() const { return lattice_; }
+  int root_bits() const { return lattice_.root_bits; }
+  glm::ivec2 root_squares() const { return lattice_.root_squares; }
+  int data_level() const { return lattice_.data_level(); }
+  int max_level() const { return lattice_.max_level; }
+  int sample_step() const { return lattice_.sample_step(); }
   /// The samples as given (row by row, north first), holes filled.
   const Samples& samples() const { return samples_; }
   /// Number of samples that were holes.
@@ -81,17 +71,17 @@ class HeightField {
   glm::dvec2 height_range() const { return height_range_; }
   double relief_amplitude() const { return relief_amplitude_; }
   /// Western/southern and eastern/northern corner of the data, world.
-  glm::dvec2 min_corner() const;
-  glm::dvec2 max_corner() const;
+  glm::dvec2 min_corner() const { return lattice_.min_corner(); }
+  glm::dvec2 max_corner() const { return lattice_.max_corner(); }
 
   /// Sample in metres, world; indices are clamped to the data (so padding repeats the edge).
   double sample(int column, int row) const;
   bool is_hole(int column, int row) const;
 
   /// World x, y of a lattice point: exact for what ids need (the same bits for the same point, always).
-  glm::dvec2 world_xy(LatticePoint p) const;
+  glm::dvec2 world_xy(LatticePoint p) const { return lattice_.world_xy(p); }
   /// True where the lattice point lies on the data, borders included (not in the padding).
-  bool inside(LatticePoint p) const;
+  bool inside(LatticePoint p) const { return lattice_.inside(p); }
   /// Surface height at a lattice point, relief included, metres, world.
   double height(LatticePoint p) const;
   /// Finest surface (the mesh of max_level everywhere) at world x, y. NaN outside of the data.
@@ -117,7 +107,6 @@ class HeightField {
   uint64_t fingerprint() const;
 
  private:
-  glm::dvec2 lattice_from_world(glm::dvec2 xy) const;
   double raw(int column, int row) const;
   double linear_height(LatticePoint p) const;
   double relief_share(LatticePoint p) const;
@@ -128,9 +117,7 @@ class HeightField {
   HeightFieldDesc desc_;
   Samples samples_;
   std::vector<uint64_t> holes_;  // one bit a sample; empty when there is none
-  int root_bits_ = 1;
-  glm::ivec2 root_squares_{1};
-  int max_level_ = 2;
+  Lattice lattice_;
   int64_t hole_count_ = 0;
   glm::dvec2 height_range_{0};
   double relief_amplitude_ = 0;

@@ -6,6 +6,7 @@
 #include <span>
 #include <sward/terrain/bounds.h>
 #include <sward/terrain/fixed_triangles.h>
+#include <sward/terrain/surface.h>
 #include <sward/terrain/view.h>
 
 namespace sward {
@@ -42,6 +43,8 @@ class RoamMesh {
  public:
   /// `bounds` and its field must outlive the mesh. Fails when the budget is below the root mesh, naming both numbers.
   static Expected<RoamMesh> create(const Bounds& bounds, const RoamOptions& options);
+  /// The same over any surface, which must outlive the mesh.
+  static Expected<RoamMesh> create(const Surface& surface, const RoamOptions& options);
   RoamMesh(RoamMesh&&) noexcept;
   RoamMesh& operator=(RoamMesh&&) noexcept;
   ~RoamMesh();

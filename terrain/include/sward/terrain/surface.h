@@ -1,0 +1,55 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sward/terrain/bounds.h>
+#include <sward/terrain/lattice.h>
+#include <glm/glm.hpp>
+
+namespace sward {
+
+/// What a RoamMesh refines over: heights and bounds of a whole field, or of a world of which only parts are resident.
+///
+/// The same lattice point has the same height whatever is resident. Calls are const, made once for each vertex or
+/// triangle that comes into being, and must be safe from the threads of all meshes over the surface; what they answer
+/// may change only between updates, and then every mesh is told by RoamMesh::surface_changed().
+class Surface {
+ public:
+  virtual ~Surface() = default;
+
+  virtual const Lattice& lattice() const = 0;
+  /// Surface height at a lattice point, relief included, metres, world. Defined for corners of root squares and for
+  /// centres of diamonds that can_split() allows.
+  virtual double height(LatticePoint p) const = 0;
+  /// Gradient of the relief alone (dz/dx, dz/dy) at such a point.
+  virtual glm::dvec2 relief_gradient(LatticePoint p) const = 0;
+  /// Bound in metres of the triangles of `level` whose base edge's middle is `centre`; nested; 0 at max_level.
+  virtual float bound(LatticePoint centre, int level) const = 0;
+  /// False while the diamond cannot be split because the height of its centre or the bounds below it are not resident.
+  /// Nested: where a diamond can be split, so can every diamond that has to be split before it.
+  virtual bool can_split(LatticePoint centre, int level) const = 0;
+  /// Slope of the data (dz/dx, dz/dy), as HeightField::data_gradient.
+  virtual glm::dvec2 data_gradient(glm::dvec2 xy) const = 0;
+  /// True when no valid sample lies in the box (its corners included, clamped to the data).
+  virtual bool all_holes(const LatticeBox& box) const = 0;
+};
+
+/// A field with its bounds, all of it resident. `bounds` and its field must outlive it.
+class FieldSurface final : public Surface {
+ public:
+  explicit FieldSurface(const Bounds& bounds) : bounds_(&bounds), field_(&bounds.field()) {}
+
+  const Lattice& lattice() const override { return field_->lattice(); }
+  double height(LatticePoint p) const override { return field_->height(p); }
+  glm::dvec2 relief_gradient(LatticePoint p) const override { return field_->relief_gradient(p); }
+  float bound(LatticePoint centre, int level) const override { return bounds_->bound(centre, level); }
+  bool can_split(LatticePoint, int) const override { return true; }
+  glm::dvec2 data_gradient(glm::dvec2 xy) const override { return field_->data_gradient(xy); }
+  bool all_holes(const LatticeBox& box) const override;
+
+ private:
+  const Bounds* bounds_;
+  const HeightField* field_;
+};
+
+}  // namespace sward
