@@ -123,7 +123,7 @@ Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighti
   Impl& self = *impl_;
   SceneFrameStats stats;
   const auto begin = std::chrono::steady_clock::now();
-  auto roam = self.cpu.mesh().update(view);
+  auto roam = self.cpu.mesh().update(view, time_s);
   if (!roam) return tl::unexpected(roam.error());
   stats.roam = *roam;
   self.programs.terrain.upload(self.cpu.mesh());

@@ -14,6 +14,8 @@
 #include "unit/plant_fixtures.h"
 #include "vegetation/layer_params.h"
 
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
+
 namespace {
 long g_allocations = 0;
 }

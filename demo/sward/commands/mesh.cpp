@@ -46,22 +46,30 @@ class SlotBuffer {
     else
       for (const uint32_t slot : mesh.changed_vertices()) vertices_[slot] = slots[slot];
     const std::span<const uint32_t> indices = mesh.visible_indices();
-    indices_.assign(indices.begin(), indices.end());
+    const std::span<const uint32_t> changed = mesh.changed_triangles();
+    if (indices_.size() < indices.size()) indices_.resize(indices.size() + indices.size() / 2);
+    for (const uint32_t slot : changed)
+      if (3 * size_t(slot) < indices.size()) std::copy_n(indices.begin() + 3 * slot, 3, indices_.begin() + 3 * slot);
+    written_ += mesh.changed_vertices().size() + changed.size();
   }
+  /// Vertices and triangles written so far.
+  size_t written() const { return written_; }
 
  private:
   std::vector<RoamVertex> vertices_;
   std::vector<uint32_t> indices_;
+  size_t written_ = 0;
 };
 
 double ms_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 
-Expected<MeshRow> run_frame(const View& view, host::SceneFrame& frame, SlotBuffer& buffer) {
+Expected<MeshRow> run_frame(const host::FlightFrame& at, host::SceneFrame& frame, SlotBuffer& buffer) {
+  const View& view = at.view;
   MeshRow row;
   const auto update_begin = std::chrono::steady_clock::now();
-  auto stats = frame.mesh().update(view);
+  auto stats = frame.mesh().update(view, at.time_s);
   if (!stats) return tl::unexpected(stats.error());
   buffer.write(frame.mesh());
   row.update_ms = ms_since(update_begin);
@@ -115,7 +123,9 @@ Expected<void> mesh(const MeshOptions& options) {
   RoamOptions roam;
   roam.max_triangles = scene->max_triangles;
   roam.target_px = options.target_px > 0 ? options.target_px : scene->target_px;
+  roam.plain = options.plain;
   if (options.plain) roam.hysteresis = 0;
+  if (options.no_morph) roam.morph_s = 0;
   auto frame = host::SceneFrame::create(scene->layers, (*terrain)->bounds, roam);
   if (!frame) return tl::unexpected(frame.error());
   // Timings want the whole flight; a mesh alone only what leads to its frame.
@@ -125,7 +135,7 @@ Expected<void> mesh(const MeshOptions& options) {
   std::string ply;
   ProgressLine progress("mesh");
   for (size_t i = 0; i < count; ++i) {
-    auto row = run_frame((*path)[i].view, *frame, buffer);
+    auto row = run_frame((*path)[i], *frame, buffer);
     if (!row) return fail("frame " + std::to_string(i) + ": " + row.error().message);
     rows.push_back(*row);
     if (options.at == i) {

@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "roam_calendar.h"
+#include "roam_draws.h"
 #include "roam_projection.h"
 #include "roam_queue.h"
 #include "roam_tree.h"
@@ -19,15 +21,24 @@ uint32_t leaf_limit(const RoamOptions& options, uint32_t roots);
 /// Fails when an option is out of range or the budget is below the number of drawable roots.
 Expected<void> check_options(const RoamOptions& options, uint32_t drawable_roots);
 
-/// The mesh behind RoamMesh: a tree, what the current view makes of its nodes, the two queues, the list of drawn
-/// leaves. split() and merge() keep all of it consistent; update() adapts to a view.
+/// The mesh behind RoamMesh: a tree, what the current view makes of its nodes, the two queues, the drawn leaves.
+///
+/// A node is *out* when a halfspace of the frustum excludes its wedgie; its whole sub-tree is then marked out, and only
+/// the topmost such node is looked at again. Everything else has a time, too, until which it need not be looked at:
+///   - a visible leaf that is not in the split queue has a priority of at most leaf_guard_;
+///   - a visible mergeable diamond that is not in the merge queue has one of at least diamond_guard_.
+/// The guards enclose the priority at which splitting and merging balance, so the queues hold the few nodes around it.
+/// With RoamOptions::plain all nodes are looked at in every new view and all are queued.
 class RoamEngine {
  public:
   RoamEngine(const Surface& surface, const RoamOptions& options);
 
-  Expected<RoamStats> update(const View& view);
+  /// `time_s` as RoamMesh::update(); nothing: no morph.
+  Expected<RoamStats> update(const View& view, std::optional<double> time_s = {});
   Expected<void> set_options(const RoamOptions& options);
   const RoamOptions& options() const { return options_; }
+  void surface_changed(const LatticeBox& box) { changes_.push_back({box, true}); }
+  void residency_changed(const LatticeBox& box) { changes_.push_back({box, false}); }
 
   /// Splits a leaf after the leaves that it forces; the number of diamonds split. Does not look at the budget.
   uint32_t split(uint32_t leaf);
@@ -38,27 +49,22 @@ class RoamEngine {
   /// Visible leaves that merge() would take away; negative when it brings more into sight than it removes.
   int merge_gain(uint32_t node) const;
 
-  /// Largest priority of a visible leaf.
+  /// A proven bound of the priorities of the visible leaves, and of the diamonds whose centres move.
   float bound_px() const;
   Expected<void> validate() const;
 
   const RoamTree& tree() const { return tree_; }
+  const DrawList& draws() const { return draws_; }
   /// The view of the last update; nothing before the first.
   const std::optional<View>& view() const { return view_; }
   bool is_visible(uint32_t node) const { return !(state_[node].cull & k_out); }
-  float priority(uint32_t node) const { return state_[node].priority; }
-  uint32_t visible_count() const { return uint32_t(drawn_.size()); }
-  std::span<const uint32_t> indices() const { return indices_; }
+  uint32_t visible_count() const { return draws_.count(); }
 
  private:
   friend class Validator;
   struct Ghost;
 
-  // View and culling.
-  void follow_eye(glm::dvec3 eye);
-  void reassess_all();
-  void reassess(uint32_t node, CullFlags inherited);
-  void prefetch_nodes(size_t place) const;
+  // Reading nodes.
   const Lanes& lanes(uint32_t vertex) const {
     SeenVertex& seen = seen_[vertex];
     if (seen.view != view_number_) {
@@ -67,59 +73,156 @@ class RoamEngine {
     }
     return seen.lanes;
   }
+  Reading read(uint32_t node) const {
+    const Corners& c = tree_.corner[node];
+    return projection_.read(lanes(c.apex), lanes(c.left), lanes(c.right), c.bound);
+  }
+  /// After read(): the corners as it saw them.
+  Seen seen(uint32_t node) const {
+    const SeenVertex &a = seen_[tree_.corner[node].apex], &b = seen_[tree_.corner[node].left],
+                     &c = seen_[tree_.corner[node].right];
+    return {{&a.lanes, &b.lanes, &c.lanes}, {&a.world, &b.world, &c.world}};
+  }
   Assessment assess(uint32_t node, CullFlags inherited) const;
   CullFlags inherited_flags(uint32_t node) const;
-  void adopt(uint32_t node, CullFlags inherited);
+
+  // Following the view: roam_follow.cpp.
+  void follow_eye(glm::dvec3 eye);
+  void look_anew(const std::optional<View>& last);
+  bool advance_clocks(const View& from, const View& to);
+  void tune_units(float metres, float radians);
+  void start_over();
+  void look_at_all();
+  void look(uint32_t node, CullFlags inherited);
+  void look_at_due();
+  void look_at_outs();
+  void look_at_leaves();
+  void look_at_diamonds();
+  void look_at_lingering();
+  void prefetch_nodes(size_t place) const;
+  void prefetch_bases(size_t place) const;
+  void prefetch_due(const std::vector<Calendar::Entry>& due, size_t place) const;
+  void lower_leaf_guard();
+  void raise_diamond_guard(float limit);
+  void follow_balance();
+
+  // What is found out about single nodes: roam_place.cpp.
+  bool acts_as_leaf(uint32_t node) const {
+    return tree_.is_leaf(node) ? !in_falling(node) : (state_[node].cull & k_falling) != 0;
+  }
+  bool in_falling(uint32_t leaf) const { return state_[leaf].held; }
+  void show(uint32_t leaf);
+  float until_side_changes(uint32_t node, uint32_t entry, const Reading& reading, float ticks);
+  void place(uint32_t node, const Reading& reading);
+  void unplace(uint32_t node);
+  void mark_out(uint32_t node);
+  void watch_out(uint32_t node, const Reading& reading);
+  void go_out(uint32_t node, const Reading& reading);
+  void come_in(uint32_t node, const Reading& reading);
+  void refresh_diamond(uint32_t node);
+  void place_diamond(uint32_t diamond);
+  void forget_diamond(uint32_t node);
+  void mark_halves(uint32_t node, bool queued);
   void grow_arrays();
   void take_vertex(uint32_t vertex);
 
-  // Membership in queues and in the list of drawn leaves.
-  void refresh_leaf(uint32_t node);
-  void forget_leaf(uint32_t node);
-  float diamond_key(uint32_t node) const;
-  void refresh_diamond(uint32_t node);
-  void forget_diamond(uint32_t node);
-  void mark_halves(uint32_t node, bool queued);
-  void draw(uint32_t node);
-  void undraw(uint32_t node);
-
-  // Adapting.
+  // Adapting: roam_refine.cpp.
+  enum class Room { enough, full, later };
   void split_one(uint32_t node);
+  uint32_t split_chain(const Chain& chain);
+  void merge_now(uint32_t node);
   bool converge();
+  uint32_t worst_leaf();
+  uint32_t cheapest_diamond(float below);
   bool make_room(uint32_t node);
-  bool fits(const Chain& chain) const;
+  Room room_for(const Chain& chain) const;
+  Room room_for_stop(uint32_t node) const;
+  Reading plain_reading(uint32_t node) const;
   void shrink_to_budget();
-  void count_merge(uint32_t node);
+  void give_up(uint32_t node);
   void trim_below_target();
   bool out_of_time();
+  uint32_t decision_budget() const;
+  int64_t decided_count() const { return int64_t(visible_count()) - falling_surplus_; }
   Ghost ghost(uint32_t node) const;
+  CullFlags sees(const Ghost& ghost, float bound, CullFlags inherited) const;
   Ghost ghost_child(const Ghost& of, int turn, const Lanes& middle) const;
+
+  // Morph: roam_morph.cpp.
+  bool morphs() const { return now_.has_value() && options_.morph_s > 0 && !options_.plain && !from_nothing_; }
+  float fall_seconds() const;
+  void rise(uint32_t node, double from_z);
+  void fall(uint32_t node);
+  void stop_fall(uint32_t node);
+  void finish_motions();
+  void finish_falls_now();
+  void count_falling_surplus();
+  bool centre_moves(uint32_t node) const { return tree_.vertices.moves(tree_.corner[tree_.child[node]].apex); }
+
+  // The surface: roam_surface.cpp.
+  void read_surface_again();
+  void collapse_forbidden(uint32_t node, const LatticeBox& box);
+  void reread(uint32_t node, const LatticeBox& box);
+  void look_again(uint32_t node);
+  void collapse(uint32_t node);
 
   RoamTree tree_;
   RoamOptions options_;
   std::optional<View> view_;
+  std::optional<double> now_;   // seconds
+  double still_since_ = 0;      // the time of the last view that differed
   Projection projection_;
   bool settled_ = false;  // the mesh is what view_ and options_ ask for
+  bool fresh_ = true;     // nothing is known of the nodes
+  bool from_nothing_ = false;  // the mesh of this update has no past to move from
   RoamStats stats_;
 
   NodeStates state_;
-  BucketQueue split_queue_;      // visible leaves
-  BucketQueue merge_queue_;      // mergeable diamonds, by their lower node
-  std::vector<uint32_t> drawn_;  // visible leaves, unordered
-  std::vector<uint32_t> indices_;
-  std::vector<uint32_t> draw_slot_;  // by node: place in drawn_
+  std::vector<uint32_t> lingering_, lingered_;  // visible leaves that may have gone out of sight, the older ones second
+  uint32_t lingering_age_ = 0;
+  bool new_to_rest_ = false;  // the view of the last update was new
+  BucketQueue split_queue_;    // visible leaves near the balance
+  BucketQueue merge_queue_;    // mergeable diamonds near the balance, by their lower node, and all that are out
+  BucketQueue blocked_queue_;  // visible leaves near the balance that the surface does not allow to split
+  DrawList draws_;
 
-  // Nodes that reassess_all() visits, in order, with their parents' flags.
+  // Deferral.
+  float leaf_guard_ = 0, diamond_guard_ = RoamMesh::k_artificial_max;
+  Calendar out_calendar_, leaf_calendar_, diamond_calendar_;
+  TickUnits units_, safe_units_;
+  float peak_metres_ = 0, peak_radians_ = 0;  // of the last seconds, per update
+  double safe_ticks_ = 0;  // until every entry was made with units_
+  uint32_t leaf_guard_steps_ = 0, diamond_guard_steps_ = 0;
+  uint32_t hidden_merges_left_ = 0;
+  uint32_t hot_mark_ = 1;  // of nodes that are looked at in the next update: 1 or 2
+  std::vector<uint32_t> hot_leaves_, hot_diamonds_, hot_outs_;
+  std::vector<Calendar::Entry> due_leaves_, due_diamonds_, due_outs_;
+
+  // Nodes that look_at_all() visits, in order, with their parents' flags.
   struct Visit {
     uint32_t node;
     CullFlags inherited;
   };
   std::vector<Visit> visits_;
 
+  // Motion.
+  struct Motion {
+    uint32_t node;  // half of the diamond whose centre moves
+    uint32_t vertex;
+  };
+  std::vector<Motion> motions_;
+  int64_t falling_surplus_ = 0;  // drawn triangles that are gone once all falls have ended
+
+  struct Change {
+    LatticeBox box;
+    bool heights;  // or only what may be split
+  };
+  std::vector<Change> changes_;
+
   // What a view makes of a vertex, computed when first needed, beside what it is computed from: one cache line.
   struct alignas(64) SeenVertex {
-    Lanes lanes;
     glm::dvec3 world{0};
+    Lanes lanes{};
     uint32_t view = 0;
   };
   mutable std::vector<SeenVertex> seen_;  // by vertex

@@ -44,6 +44,25 @@ RoamMesh::RoamMesh(RoamMesh&&) noexcept = default;
 RoamMesh& RoamMesh::operator=(RoamMesh&&) noexcept = default;
 RoamMesh::~RoamMesh() = default;
 
+Expected<RoamStats> RoamMesh::update(const View& view, double time_s) {
+  Expected<RoamStats> stats = impl_->engine.update(view, time_s);
+  if (stats) ++impl_->revision;
+  return stats;
+}
+
+void RoamMesh::surface_changed(const LatticeBox& box) {
+  impl_->engine.surface_changed(box);
+}
+
+void RoamMesh::residency_changed(const LatticeBox& box) {
+  impl_->engine.residency_changed(box);
+}
+
+float RoamMesh::morph_time() const {
+  const roam::VertexPool& vertices = impl_->engine.tree().vertices;
+  return float(vertices.now - vertices.time_origin);
+}
+
 Expected<RoamStats> RoamMesh::update(const View& view) {
   Expected<RoamStats> stats = impl_->engine.update(view);
   if (stats) ++impl_->revision;
@@ -83,7 +102,11 @@ bool RoamMesh::all_vertices_changed() const {
 }
 
 std::span<const uint32_t> RoamMesh::visible_indices() const {
-  return impl_->engine.indices();
+  return impl_->engine.draws().indices();
+}
+
+std::span<const uint32_t> RoamMesh::changed_triangles() const {
+  return impl_->engine.draws().changed();
 }
 
 std::vector<uint32_t> RoamMesh::all_indices() const {
@@ -99,9 +122,9 @@ std::vector<uint32_t> RoamMesh::all_indices() const {
 }
 
 glm::dvec3 RoamMesh::vertex_world(uint32_t slot) const {
-  const auto& world = impl_->engine.tree().vertices.world;
-  SWARD_ASSERT(slot < world.size(), "no such vertex slot");
-  return world[slot];
+  const roam::VertexPool& vertices = impl_->engine.tree().vertices;
+  SWARD_ASSERT(slot < vertices.world.size(), "no such vertex slot");
+  return vertices.drawn(slot);
 }
 
 void RoamMesh::fixed_level_triangles(const FixedLevelOptions& options, FixedTriangles& out) const {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -17,16 +18,23 @@ inline constexpr uint32_t k_none = 0xffffffffu;
 using CullFlags = uint8_t;
 inline constexpr CullFlags k_out = 0x80;
 
-/// What a view makes of a node, and its place in the split queue (a leaf) or the merge queue (a split node). Together,
-/// so that a visit of a pair of siblings touches one cache line.
-struct NodeState {
+/// The centre of this split node's diamond is on its way down: its halves count as leaves already.
+inline constexpr CullFlags k_falling = 0x40;
+
+/// What a view makes of a node, and its place in the split queue (a leaf, or half of a falling diamond) or the merge
+/// queue (a split node, for its diamond). Two share a cache line, as siblings do.
+struct alignas(32) NodeState {
   static constexpr uint16_t k_unqueued = 0xffff;
   uint32_t previous = k_none, next = k_none;
   float key = 0;
-  float priority = -1;  ///< Of the node's own triangle, pixels; -1 when it is out.
+  float priority = -1;       ///< Of the node's own triangle when last looked at, pixels; -1 when it was out.
+  uint32_t due = 0;          ///< Tick or mark at which the node is looked at again; 0: no such time.
+  uint32_t diamond_due = 0;  ///< The same for the diamond that the node stands for.
   uint16_t bucket = k_unqueued;
   CullFlags cull = k_out;
   bool half_queued = false;  ///< Split node: its diamond is in the merge queue.
+  bool held = false;         ///< Leaf: its parent is falling and stands for it.
+  bool blocked = false;      ///< Leaf: it is in the queue of those that the surface does not allow to split.
 
   bool queued() const { return bucket != k_unqueued; }
 };
@@ -87,6 +95,12 @@ class BucketQueue {
   /// Some node without a priority, or k_none.
   uint32_t unprioritised() const { return heads_[0]; }
   size_t size() const { return size_; }
+  void clear() {
+    std::fill(heads_.begin(), heads_.end(), k_none);
+    words_.fill(0);
+    summary_.fill(0);
+    size_ = 0;
+  }
 
  private:
   static constexpr int k_shift = 15;

@@ -13,6 +13,7 @@
 // largest priority of that moment or as its support, is therefore not merged again, and there are finitely many
 // diamonds to merge. Where the data gives no such order (beyond the border, where bounds count nothing), a limit on
 // the number of operations ends the loop.
+#include <algorithm>
 #include <cmath>
 
 #include "roam_engine.h"
@@ -24,11 +25,10 @@ namespace {
 // Leaves, above twice the budget and the roots, that narrow views may need for the sides of their deepest triangles.
 constexpr uint32_t k_spare_leaves = 4096;
 constexpr uint32_t k_operations_between_clock_reads = 16;
-
-bool same(const View& a, const View& b) {
-  return a.eye == b.eye && a.eye_from_world == b.eye_from_world && a.clip_from_eye == b.clip_from_eye &&
-         a.viewport == b.viewport;
-}
+// Share of the budget that decisions keep for triangles on their way out.
+constexpr uint32_t k_reserve_divisor = 24;
+// Diamonds out of sight that an update may merge, and the share of the leaves that it may in any case.
+constexpr uint32_t k_hidden_merges = 256, k_hidden_merges_divisor = 64;
 
 }  // namespace
 
@@ -37,110 +37,229 @@ uint32_t leaf_limit(const RoamOptions& options, uint32_t roots) {
   return uint32_t(std::min<uint64_t>(limit, uint32_t(1) << 30));
 }
 
-Expected<RoamStats> RoamEngine::update(const View& view) {
-  if (auto valid = view.validate(); !valid) return tl::unexpected<Error>(valid.error());
-  if (options_.time_cap_s > 0) {
-    deadline_ = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                                                       std::chrono::duration<double>(options_.time_cap_s));
-  }
-  tree_.vertices.begin_changes();
-  stats_ = {};
-  if (!view_ || !same(*view_, view)) {
-    follow_eye(view.eye);
-    view_ = view;
-    projection_ = Projection(view);
-    ++view_number_;
-    settled_ = false;
-    reassess_all();
-  }
-  if (!settled_) {
-    operations_ = 0;
-    operation_limit_ = 4 * (uint64_t(tree_.leaf_count()) + options_.max_triangles) + 1024;
-    time_checks_ = 0;
-    settled_ = converge();
-    stats_.capped = !settled_;
-  }
-  stats_.visible = visible_count();
-  stats_.leaves = tree_.leaf_count();
-  return stats_;
+uint32_t RoamEngine::decision_budget() const {
+  return morphs() ? options_.max_triangles - options_.max_triangles / k_reserve_divisor : options_.max_triangles;
 }
 
-// False when the time cap ended it; the clock is first read after some operations, so that every update makes progress.
+uint32_t RoamEngine::split_chain(const Chain& chain) {
+  for (int i = chain.length; i-- > 0;) split_one(chain.node[i]);
+  return uint32_t(chain.length);
+}
+
+void RoamEngine::split_one(uint32_t node) {
+  const uint32_t halves[2] = {node, tree_.neighbour[node].base};
+  bool seen = false;
+  for (const uint32_t half : halves) {
+    if (half == k_none) continue;
+    const uint32_t parent = tree_.parent[half];
+    if (in_falling(half)) stop_fall(parent);
+    if (parent != k_none) forget_diamond(parent);
+    if (!is_visible(half)) continue;
+    seen = true;
+    unplace(half);
+    if (draws_.contains(half)) draws_.remove(half);
+  }
+  const Corners& c = tree_.corner[node];
+  const double from_z = 0.5 * (tree_.vertices.drawn_z(c.left) + tree_.vertices.drawn_z(c.right));
+  tree_.split_diamond(node);
+  grow_arrays();
+  take_vertex(tree_.corner[tree_.child[node]].apex);
+  bool near = false;
+  for (const uint32_t half : halves) {
+    if (half == k_none) continue;
+    near |= is_visible(half) && read(half).priority >= RoamMesh::k_artificial_max;
+    for (uint32_t child = tree_.child[half]; child <= tree_.child[half] + 1; ++child) {
+      state_[child] = {};
+      if (is_visible(half)) look(child, state_[half].cull);
+    }
+  }
+  // What crosses the near plane has no bound in pixels to keep while it moves.
+  if (morphs() && seen && !near) {
+    rise(node, from_z);
+  } else {
+    refresh_diamond(node);
+  }
+}
+
+// Without any motion.
+void RoamEngine::merge_now(uint32_t node) {
+  const uint32_t halves[2] = {node, tree_.neighbour[node].base};
+  forget_diamond(node);
+  for (const uint32_t half : halves) {
+    if (half == k_none) continue;
+    if (state_[half].cull & k_falling) {
+      if (is_visible(half)) unplace(half);
+      state_[half].cull = CullFlags(state_[half].cull & ~k_falling);
+    }
+    for (uint32_t child = tree_.child[half]; child <= tree_.child[half] + 1; ++child) {
+      unplace(child);
+      if (draws_.contains(child)) draws_.remove(child);
+      state_[child].cull = k_out;
+    }
+  }
+  tree_.merge_diamond(node);
+  for (const uint32_t half : halves) {
+    if (half == k_none || !is_visible(half)) continue;
+    const Reading reading = options_.plain ? plain_reading(half) : read(half);
+    if (reading.out() && !options_.plain) {
+      go_out(half, reading);
+    } else {
+      show(half);
+      place(half, reading);
+    }
+  }
+  for (const uint32_t half : halves)
+    if (half != k_none) refresh_diamond(tree_.parent[half]);
+}
+
+Reading RoamEngine::plain_reading(uint32_t node) const {
+  Reading reading;
+  reading.bound = tree_.corner[node].bound;
+  reading.priority = state_[node].priority;
+  return reading;
+}
+
+// False when there is more to do: the time cap, or triangles on their way out, ended it. The clock is first read after
+// some operations, so that every update makes progress.
 bool RoamEngine::converge() {
+  hidden_merges_left_ = options_.plain ? ~0u : k_hidden_merges + visible_count() / k_hidden_merges_divisor;
   shrink_to_budget();
   while (operations_ < operation_limit_) {
-    if (out_of_time()) return false;
-    const uint32_t worst = split_queue_.highest(state_);
-    if (worst == k_none || state_[worst].key <= options_.target_px) {
-      trim_below_target();
-      return true;
+    if (out_of_time()) {
+      stats_.capped = true;
+      return false;
     }
-    if (fits(tree_.forced_chain(worst))) {
+    const uint32_t worst = worst_leaf();
+    if (worst == k_none) {
+      trim_below_target();
+      return motions_.empty() && hidden_merges_left_ > 0;
+    }
+    const bool falls = !tree_.is_leaf(worst);
+    const Room room = falls ? room_for_stop(worst) : room_for(tree_.forced_chain(worst));
+    if (room == Room::later) return false;
+    if (room == Room::full) {
+      if (!make_room(worst)) return motions_.empty() && hidden_merges_left_ > 0;
+    } else if (falls) {
+      stop_fall(worst);
+      ++operations_;
+    } else {
       const uint32_t split_count = split(worst);
       stats_.splits += split_count;
       operations_ += split_count;
-    } else if (!make_room(worst)) {
-      return true;
     }
   }
   return true;
 }
 
-bool RoamEngine::fits(const Chain& chain) const {
+// The visible leaf of the largest priority; k_none when none is above the target.
+uint32_t RoamEngine::worst_leaf() {
+  for (;;) {
+    const uint32_t worst = split_queue_.highest(state_);
+    const float key = worst == k_none ? 0.0f : state_[worst].key;
+    if (key >= leaf_guard_ || leaf_guard_ <= options_.target_px)
+      return worst != k_none && key > options_.target_px ? worst : k_none;
+    lower_leaf_guard();
+  }
+}
+
+// The visible mergeable diamond of the least priority, sought no further than up to `limit`; k_none: there is none.
+uint32_t RoamEngine::cheapest_diamond(float limit) {
+  for (;;) {
+    const uint32_t lowest = merge_queue_.lowest(state_);
+    if (lowest != k_none && state_[lowest].key <= diamond_guard_) return lowest;
+    if (diamond_guard_ >= limit) return lowest;
+    raise_diamond_guard(limit);
+  }
+}
+
+RoamEngine::Room RoamEngine::room_for(const Chain& chain) const {
   const int64_t most = 2 * int64_t(chain.length);
-  if (tree_.leaf_count() + most > leaf_limit(options_, tree_.root_count())) return false;
-  const int64_t room = int64_t(options_.max_triangles) - visible_count();
-  return most <= room || split_cost(chain) <= room;
+  if (tree_.leaf_count() + most > leaf_limit(options_, tree_.root_count())) return Room::full;
+  const int64_t decided_room = int64_t(decision_budget()) - decided_count();
+  const int64_t drawn_room = int64_t(options_.max_triangles) - visible_count();
+  // A split beside a falling diamond makes it rise again: then its triangles stay.
+  int64_t rising = 0;
+  for (int i = 0; i < chain.length; ++i)
+    for (const uint32_t half : {chain.node[i], tree_.neighbour[chain.node[i]].base})
+      if (half != k_none && in_falling(half)) rising += merge_gain(tree_.parent[half]);
+  if (most + rising <= decided_room && most <= drawn_room) return Room::enough;
+  const int cost = split_cost(chain);
+  if (cost + rising > decided_room) return Room::full;
+  return cost > drawn_room ? Room::later : Room::enough;
+}
+
+RoamEngine::Room RoamEngine::room_for_stop(uint32_t node) const {
+  return decided_count() + merge_gain(node) <= int64_t(decision_budget()) ? Room::enough : Room::full;
 }
 
 // One merge towards splitting `node`; false when none is worth it.
 bool RoamEngine::make_room(uint32_t node) {
-  const uint32_t hidden = merge_queue_.unprioritised();
+  const uint32_t hidden = hidden_merges_left_ > 0 ? merge_queue_.unprioritised() : k_none;
   uint32_t victim = hidden;
   const bool crowded = tree_.leaf_count() + 2 * (k_max_level + 1) > leaf_limit(options_, tree_.root_count());
   if (!crowded || hidden == k_none) {
-    const uint32_t lowest = merge_queue_.lowest(state_);
+    const uint32_t lowest = cheapest_diamond(state_[node].key / (1 + options_.hysteresis));
     const bool pays = lowest != k_none && state_[lowest].key * (1 + options_.hysteresis) < state_[node].key;
     if (pays) victim = lowest;
   }
   if (victim == k_none) return false;
-  count_merge(victim);
+  give_up(victim);
   shrink_to_budget();
   return true;
 }
 
 // A merge may bring more into sight than it removes, so this runs after every merge, too.
 void RoamEngine::shrink_to_budget() {
-  while (visible_count() > options_.max_triangles) {
-    uint32_t victim = merge_queue_.lowest(state_);
+  while (decided_count() > int64_t(decision_budget())) {
+    uint32_t victim = cheapest_diamond(RoamMesh::k_artificial_max);
     if (victim == k_none) victim = merge_queue_.unprioritised();
-    if (victim == k_none) return;  // the root mesh, which no budget is below
-    count_merge(victim);
+    if (victim == k_none) break;
+    give_up(victim);
+  }
+  if (visible_count() > options_.max_triangles) finish_falls_now();
+  while (visible_count() > options_.max_triangles) {
+    uint32_t victim = cheapest_diamond(RoamMesh::k_artificial_max);
+    if (victim == k_none) victim = merge_queue_.unprioritised();
+    if (victim == k_none) break;  // the root mesh, which no budget is below
+    merge_now(victim);
+    ++stats_.merges;
+    ++operations_;
   }
   while (tree_.leaf_count() > leaf_limit(options_, tree_.root_count())) {
     const uint32_t victim = merge_queue_.unprioritised();
     if (victim == k_none || int64_t(visible_count()) - merge_gain(victim) > int64_t(options_.max_triangles)) return;
-    count_merge(victim);
+    give_up(victim);
   }
 }
 
-void RoamEngine::count_merge(uint32_t node) {
-  merge(node);
-  ++stats_.merges;
+// Merges a diamond, or begins to.
+void RoamEngine::give_up(uint32_t node) {
   ++operations_;
+  const float key = state_[node].key;
+  if (key < 0) {
+    hidden_merges_left_ -= hidden_merges_left_ > 0;
+  } else if (morphs() && key < RoamMesh::k_artificial_max) {
+    const size_t moving = motions_.size();
+    fall(node);
+    stats_.merges += motions_.size() == moving;
+    return;
+  }
+  merge_now(node);
+  ++stats_.merges;
 }
 
 // With a target in pixels, what is finer than it by more than the hysteresis is given up.
 void RoamEngine::trim_below_target() {
   if (options_.target_px <= 0) return;
+  const float limit = options_.target_px / (1 + options_.hysteresis);
   while (!out_of_time()) {
-    uint32_t victim = merge_queue_.unprioritised();
+    uint32_t victim = hidden_merges_left_ > 0 ? merge_queue_.unprioritised() : k_none;
     if (victim == k_none) {
-      victim = merge_queue_.lowest(state_);
-      if (victim == k_none || state_[victim].key * (1 + options_.hysteresis) >= options_.target_px) return;
+      victim = cheapest_diamond(limit);
+      if (victim == k_none || state_[victim].key >= limit) return;
     }
     if (int64_t(visible_count()) - merge_gain(victim) > int64_t(options_.max_triangles)) return;
-    count_merge(victim);
+    give_up(victim);
   }
 }
 
@@ -164,6 +283,12 @@ RoamEngine::Ghost RoamEngine::ghost(uint32_t node) const {
           tree_.id[node].level(), tree_.cover[node], state_[node].cull};
 }
 
+// As look() will find it.
+CullFlags RoamEngine::sees(const Ghost& g, float bound, CullFlags inherited) const {
+  if (options_.plain || inherited & k_out) return projection_.assess(g.apex, g.left, g.right, bound, inherited).cull;
+  return projection_.read(g.apex, g.left, g.right, bound).out() ? k_out : CullFlags(0);
+}
+
 RoamEngine::Ghost RoamEngine::ghost_child(const Ghost& of, int turn, const Lanes& middle) const {
   Ghost child = of;
   child.corners = child_corners(of.corners, turn);
@@ -175,7 +300,7 @@ RoamEngine::Ghost RoamEngine::ghost_child(const Ghost& of, int turn, const Lanes
   const float bound = tree_.surface().bound(centre_of(child.corners), child.level);
   child.cull = child.cover == Cover::padding
                    ? k_out
-                   : projection_.assess(child.apex, child.left, child.right, bound, of.cull).cull;
+                   : sees(child, bound, of.cull);
   return child;
 }
 

@@ -47,6 +47,7 @@ uint32_t VertexPool::add(const Surface& surface, LatticePoint point) {
   if (free_.empty()) {
     lattice.emplace_back();
     world.emplace_back();
+    motion.emplace_back();
     gpu.emplace_back();
     alive.push_back(0);
     change_.push_back(0);
@@ -55,16 +56,25 @@ uint32_t VertexPool::add(const Surface& surface, LatticePoint point) {
     free_.pop_back();
   }
   lattice[slot] = point;
-  world[slot] = glm::dvec3(surface.lattice().world_xy(point), surface.height(point));
-  gpu[slot] = {glm::vec3(world[slot] - origin), glm::vec2(surface.relief_gradient(point))};
+  motion[slot] = {};
   alive[slot] = 1;
-  mark_changed(slot);
+  reread(surface, slot);
   return slot;
 }
 
 void VertexPool::free(uint32_t slot) {
   alive[slot] = 0;
+  motion[slot] = {};
   free_.push_back(slot);
+}
+
+void VertexPool::reread(const Surface& surface, uint32_t slot) {
+  const LatticePoint point = lattice[slot];
+  const bool rises = moves(slot) && motion[slot].to_z == world[slot].z;
+  world[slot] = glm::dvec3(surface.lattice().world_xy(point), surface.height(point));
+  if (rises) motion[slot].to_z = world[slot].z;
+  gpu[slot].relief_gradient = glm::vec2(surface.relief_gradient(point));
+  write(slot);
 }
 
 void VertexPool::begin_changes() {
@@ -73,14 +83,40 @@ void VertexPool::begin_changes() {
   ++period_;
 }
 
+void VertexPool::begin_motion(uint32_t slot, double from_z, double to_z, float seconds) {
+  motion[slot] = {from_z, to_z, now, seconds};
+  write(slot);
+}
+
 void VertexPool::rebase(glm::dvec3 new_origin) {
   origin = new_origin;
+  time_origin = now;
   all_changed = true;
-  for (uint32_t slot = 0; slot < lattice.size(); ++slot) {
-    if (!alive[slot]) continue;
-    gpu[slot].position = glm::vec3(world[slot] - origin);
-    mark_changed(slot);
-  }
+  for (uint32_t slot = 0; slot < lattice.size(); ++slot)
+    if (alive[slot]) write(slot);
+}
+
+void VertexPool::clear() {
+  lattice.clear();
+  world.clear();
+  motion.clear();
+  gpu.clear();
+  alive.clear();
+  change_.clear();
+  free_.clear();
+  changed.clear();
+  all_changed = true;
+}
+
+void VertexPool::write(uint32_t slot) {
+  const Motion& m = motion[slot];
+  const bool still = m.seconds <= 0;
+  RoamVertex& vertex = gpu[slot];
+  vertex.position = glm::vec3(glm::dvec3(glm::dvec2(world[slot]), still ? world[slot].z : m.to_z) - origin);
+  vertex.from_z = still ? vertex.position.z : float(m.from_z - origin.z);
+  vertex.start_s = still ? 0.0f : float(m.start - time_origin);
+  vertex.per_second = still ? 0.0f : 1.0f / m.seconds;
+  mark_changed(slot);
 }
 
 void VertexPool::mark_changed(uint32_t slot) {
@@ -91,6 +127,22 @@ void VertexPool::mark_changed(uint32_t slot) {
 
 RoamTree::RoamTree(const Surface& surface) : surface_(&surface), lattice_(surface.lattice()) {
   add_roots();
+}
+
+void RoamTree::clear() {
+  id.clear();
+  corner.clear();
+  neighbour.clear();
+  parent.clear();
+  child.clear();
+  cover.clear();
+  free_pairs_.clear();
+  vertices.clear();
+  add_roots();
+}
+
+void RoamTree::reread(uint32_t node) {
+  if (cover[node] != Cover::padding) corner[node].bound = surface_->bound(centre_of(corners(node)), id[node].level());
 }
 
 void RoamTree::add_roots() {

@@ -5,6 +5,8 @@
 #include <sward/terrain/surface.h>
 #include <sward/terrain/fixed_triangles.h>
 #include <sward/terrain/roam_mesh.h>
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -30,24 +32,52 @@ inline TriangleCorners child_corners(const TriangleCorners& c, int turn) {
 }
 
 /// Vertices in stable slots. Every vertex but those of the root squares' corners is the centre of one split diamond.
+/// A vertex stands at its height on the surface, or moves between two heights for some time.
 class VertexPool {
  public:
   uint32_t add(const Surface& surface, LatticePoint point);
   void free(uint32_t slot);
+  /// Takes the height of the surface anew.
+  void reread(const Surface& surface, uint32_t slot);
   /// Forgets what was written so far.
   void begin_changes();
-  /// Moves the origin and rewrites every living slot.
+  /// Moves the origins of positions and times and rewrites every living slot.
   void rebase(glm::dvec3 origin);
+  void clear();
+
+  /// From `from_z` to `to_z` within `seconds` (> 0) from now on.
+  void begin_motion(uint32_t slot, double from_z, double to_z, float seconds);
+  /// The motion is over; nothing is written, since its end is what is drawn.
+  void end_motion(uint32_t slot) { motion[slot].seconds = 0; }
+  bool moves(uint32_t slot) const { return motion[slot].seconds > 0; }
+  bool arrived(uint32_t slot) const { return now >= motion[slot].start + double(motion[slot].seconds); }
+  /// The height that is drawn now.
+  double drawn_z(uint32_t slot) const {
+    const Motion& m = motion[slot];
+    if (m.seconds <= 0) return world[slot].z;
+    const double t = std::clamp((now - m.start) / double(m.seconds), 0.0, 1.0);
+    return m.from_z + t * (m.to_z - m.from_z);
+  }
+  /// The point that is drawn now.
+  glm::dvec3 drawn(uint32_t slot) const { return {glm::dvec2(world[slot]), drawn_z(slot)}; }
+
+  struct Motion {
+    double from_z = 0, to_z = 0, start = 0;
+    float seconds = 0;  // 0: the vertex rests on the surface
+  };
 
   std::vector<LatticePoint> lattice;
-  std::vector<glm::dvec3> world;
+  std::vector<glm::dvec3> world;  // on the surface
+  std::vector<Motion> motion;
   std::vector<RoamVertex> gpu;
   std::vector<uint8_t> alive;
   std::vector<uint32_t> changed;  // slots written since begin_changes()
   glm::dvec3 origin{0};
+  double now = 0, time_origin = 0;  // seconds
   bool all_changed = false;
 
  private:
+  void write(uint32_t slot);
   void mark_changed(uint32_t slot);
 
   std::vector<uint32_t> free_;
@@ -79,6 +109,8 @@ struct Chain {
 class RoamTree {
  public:
   explicit RoamTree(const Surface& surface);
+  /// Back to the root mesh. Slots of vertices begin anew.
+  void clear();
 
   const Surface& surface() const { return *surface_; }
   const Lattice& lattice() const { return lattice_; }
@@ -89,6 +121,12 @@ class RoamTree {
   bool is_alive(uint32_t node) const { return child[node] != k_dead; }
   bool is_leaf(uint32_t node) const { return child[node] == k_none; }
   bool is_split(uint32_t node) const { return child[node] < k_dead; }
+  /// Whether the surface lets the leaf be split.
+  bool splittable(uint32_t leaf) const {
+    return id[leaf].level() < lattice_.max_level && surface_->can_split(centre_of(corners(leaf)), id[leaf].level());
+  }
+  /// Takes the bound of a node anew.
+  void reread(uint32_t node);
   TriangleCorners corners(uint32_t node) const;
 
   /// Leaves that have to be split so that `leaf` can be; split_diamond() them from the last to the first.

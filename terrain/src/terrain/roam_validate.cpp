@@ -59,31 +59,71 @@ class Validator {
     require(t_.id[node] == t_.id[parent].child(int(node & 1)), node, "has an id that does not follow its parent's");
   }
 
+  // Deferred findings are derived again for the present view: none may be wrong by now.
   void check_view(uint32_t node) {
-    const Assessment now = e_.assess(node, e_.inherited_flags(node));
-    require(now.cull == e_.state_[node].cull, node, "has flags of another view");
-    require(now.priority == e_.state_[node].priority, node, "has the priority of another view");
+    const NodeState& s = e_.state_[node];
+    const uint32_t parent = t_.parent[node];
+    const bool below_out = parent != k_none && !e_.is_visible(parent);
+    if (e_.options_.plain) {
+      const Assessment now = e_.assess(node, e_.inherited_flags(node));
+      require(now.cull == s.cull, node, "has flags of another view");
+      require(now.priority == s.priority, node, "has the priority of another view");
+      return;
+    }
+    if (!e_.view_) return;
+    if (below_out) {
+      require(!e_.is_visible(node), node, "is visible below what is out");
+      return require(s.due == 0, node, "is watched below what is out");
+    }
+    const bool padding = t_.corner[node].bound < 0;
+    if (!e_.is_visible(node)) {
+      require(padding || e_.read(node).out(), node, "is taken to be out and is not");
+      require(padding || s.due != 0, node, "is out and nobody watches");
+    }
+    if (s.cull & k_falling) {
+      const bool moves = t_.is_split(node) && e_.centre_moves(node);
+      require(moves && t_.mergeable(node), node, "falls and does not move");
+    }
   }
 
   void check_leaf(uint32_t node) {
     ++leaves_;
     const bool visible = e_.is_visible(node);
     visible_ += visible;
-    require(e_.state_[node].queued() == visible, node, visible ? "is visible, not queued" : "is queued, not visible");
-    if (visible) {
-      check_queued(node, e_.state_[node].priority);
-      const uint32_t slot = e_.draw_slot_[node];
-      require(slot < e_.drawn_.size() && e_.drawn_[slot] == node, node, "is visible and not drawn");
+    require(e_.draws_.contains(node) == visible, node, visible ? "is visible, not drawn" : "is drawn, not visible");
+    if (visible && e_.draws_.contains(node)) {
+      const uint32_t slot = e_.draws_.slot(node);
       const Corners& c = t_.corner[node];
-      require(slot < e_.drawn_.size() && e_.indices_[3 * slot] == c.apex && e_.indices_[3 * slot + 1] == c.left &&
-                  e_.indices_[3 * slot + 2] == c.right,
-              node, "is drawn with other corners");
+      const auto drawn = e_.draws_.indices();
+      require(slot < e_.draws_.count() && e_.draws_.nodes()[slot] == node, node, "has another's place in the draw list");
+      require(drawn[3 * slot] == c.apex && drawn[3 * slot + 1] == c.left && drawn[3 * slot + 2] == c.right, node,
+              "is drawn with other corners");
+    }
+    if (e_.acts_as_leaf(node)) {
+      check_placed(node);
+    } else {
+      require(!e_.state_[node].queued(), node, "is queued, and its parent is falling");
     }
     const Neighbours& n = t_.neighbour[node];
     const Corners& c = t_.corner[node];
     check_edge(node, n.base, c.left, c.right);
     check_edge(node, n.left, c.apex, c.left);
     check_edge(node, n.right, c.right, c.apex);
+  }
+
+  // A leaf, or half of a falling diamond: queued by its priority, or known to be below the guard.
+  void check_placed(uint32_t node) {
+    const NodeState& s = e_.state_[node];
+    if (!e_.is_visible(node)) return require(!s.queued(), node, "is queued, not visible");
+    const float priority = e_.options_.plain ? s.priority : e_.read(node).priority;
+    if (s.queued()) {
+      queued_leaves_ += 1;
+      check_queued(node, priority);
+      return;
+    }
+    require(!e_.options_.plain, node, "is visible, not queued");
+    require(s.due != 0, node, "is neither queued nor entered in a calendar");
+    require(priority <= e_.leaf_guard_ * k_rounding, node, "has risen above the guard unseen");
   }
 
   // The neighbour must be a leaf that has the same edge, run through the other way, and knows this node across it.
@@ -120,13 +160,30 @@ class Validator {
     }
     const bool stands_for_diamond = t_.diamond_of(node) == node;
     diamonds_ += stands_for_diamond;
-    const bool expected = stands_for_diamond && t_.mergeable(node);
-    require(e_.state_[node].half_queued == t_.mergeable(node), node, "does not know whether its diamond is queued");
-    require(e_.state_[node].queued() == expected, node, expected ? "is mergeable, not queued" : "is queued wrongly");
-    if (expected) {
-      check_queued(node, e_.diamond_key(node));
+    if (e_.state_[node].cull & k_falling) return check_placed(node);
+    if (stands_for_diamond) check_diamond(node);
+    const bool queued = stands_for_diamond && e_.state_[node].half_queued;
+    require(e_.state_[node].queued() == queued, node, "is queued wrongly");
+  }
+
+  void check_diamond(uint32_t node) {
+    const uint32_t base = t_.neighbour[node].base;
+    const NodeState& s = e_.state_[node];
+    require(base == k_none || e_.state_[base].half_queued == s.half_queued, node, "does not agree with its other half");
+    const bool candidate = t_.mergeable(node) && !e_.centre_moves(node);
+    require(candidate || !s.half_queued, node, "is queued and cannot be merged");
+    if (!candidate) return;
+    float key = -1;
+    for (const uint32_t half : {node, base})
+      if (half != k_none && e_.is_visible(half))
+        key = std::max(key, e_.options_.plain ? e_.state_[half].priority : e_.read(half).priority);
+    if (s.half_queued) {
       ++mergeable_;
+      return check_queued(node, key);
     }
+    require(!e_.options_.plain, node, "is mergeable, not queued");
+    require(s.diamond_due != 0, node, "is neither queued nor entered in a calendar");
+    require(key * k_rounding >= e_.diamond_guard_, node, "has fallen below the guard unseen");
   }
 
   void check_queued(uint32_t node, float key) {
@@ -143,16 +200,20 @@ class Validator {
     require(alive_nodes == nodes_, 0, "nodes live that no root leads to");
     require(alive_vertices == root_vertices + diamonds_, 0, "vertices live that no diamond owns");
     require(leaves_ == t_.leaf_count(), 0, "the number of leaves is wrong");
-    require(visible_ == e_.visible_count() && e_.indices_.size() == 3 * visible_, 0, "the number drawn is wrong");
-    require(e_.split_queue_.size() == visible_, 0, "the split queue's size is wrong");
+    require(visible_ == e_.visible_count() && e_.draws_.indices().size() == 3 * visible_, 0,
+            "the number drawn is wrong");
+    require(e_.split_queue_.size() + e_.blocked_queue_.size() == queued_leaves_, 0, "the split queue's size is wrong");
     require(e_.merge_queue_.size() == mergeable_, 0, "the merge queue's size is wrong");
     require(!e_.settled_ || visible_ <= e_.options_.max_triangles, 0, "the budget is exceeded");
   }
 
   const RoamEngine& e_;
   const RoamTree& t_;
+  // Of priorities and of the arithmetic that foretells them.
+  static constexpr float k_rounding = 1.0001f;
+
   std::string fault_;
-  size_t nodes_ = 0, leaves_ = 0, visible_ = 0, diamonds_ = 0, mergeable_ = 0;
+  size_t nodes_ = 0, leaves_ = 0, visible_ = 0, diamonds_ = 0, mergeable_ = 0, queued_leaves_ = 0;
 };
 
 Expected<void> RoamEngine::validate() const {

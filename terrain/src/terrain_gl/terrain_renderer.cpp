@@ -3,7 +3,6 @@
 
 #include <sward/terrain_gl/terrain_renderer.h>
 
-#include <algorithm>
 #include <cstddef>
 
 namespace sward {
@@ -11,16 +10,7 @@ namespace sward {
 namespace {
 
 /// Uniform locations of terrain.vert.glsl and terrain.frag.glsl.
-enum Location : GLint { k_origin_from_eye = 0, k_base_map_transform, k_slope_map_transform, k_data_rectangle };
-
-/// Changed slots that lie at most this far apart are uploaded in one run: a call costs more than some vertices.
-constexpr uint32_t k_joined_gap = 24;
-/// Least capacity of the buffers, elements.
-constexpr size_t k_least_capacity = 4096;
-
-size_t grown(size_t capacity, size_t needed) {
-  return capacity >= needed ? capacity : std::max({needed, capacity + capacity / 2, k_least_capacity});
-}
+enum Location : GLint { k_origin_from_eye = 0, k_base_map_transform, k_slope_map_transform, k_data_rectangle, k_morph_time };
 
 /// Takes positions relative to the eye to texture coordinates of a map whose v counts from the north: uv = xy * p + zw.
 glm::vec4 map_transform(const glm::dvec3& eye, const glm::dvec2& map_min, const glm::dvec2& map_size) {
@@ -49,6 +39,8 @@ Expected<TerrainRenderer> TerrainRenderer::create(const gl::ShaderLibrary& shade
   if (!program) return tl::unexpected(program.error());
 
   TerrainRenderer renderer;
+  renderer.vertices_ = SlotBuffer(sizeof(RoamVertex));
+  renderer.triangles_ = SlotBuffer(3 * sizeof(uint32_t));
   renderer.bindings_ = bindings;
   renderer.program_ = std::move(*program);
   renderer.vertex_array_ = gl::create_vertex_array();
@@ -59,62 +51,39 @@ Expected<TerrainRenderer> TerrainRenderer::create(const gl::ShaderLibrary& shade
   glEnableVertexArrayAttrib(vertex_array, 1);
   glVertexArrayAttribFormat(vertex_array, 1, 2, GL_FLOAT, GL_FALSE, offsetof(RoamVertex, relief_gradient));
   glVertexArrayAttribBinding(vertex_array, 1, 0);
+  glEnableVertexArrayAttrib(vertex_array, 2);
+  glVertexArrayAttribFormat(vertex_array, 2, 3, GL_FLOAT, GL_FALSE, offsetof(RoamVertex, from_z));
+  glVertexArrayAttribBinding(vertex_array, 2, 0);
   return renderer;
 }
 
 size_t TerrainRenderer::upload(const RoamMesh& mesh) {
   if (mesh.revision() == revision_) return 0;
-  const size_t written = upload_vertices(mesh) + upload_indices(mesh.visible_indices());
+  const bool follows = mesh.revision() == revision_ + 1;
+  size_t written = 0;
+  if (vertices_.fit(mesh.vertices().size())) {
+    glVertexArrayVertexBuffer(vertex_array_.id(), 0, vertices_.id(), 0, sizeof(RoamVertex));
+    written += vertices_.write_all(mesh.vertices().data(), mesh.vertices().size());
+  } else if (mesh.all_vertices_changed() || !follows) {
+    written += vertices_.write_all(mesh.vertices().data(), mesh.vertices().size());
+  } else {
+    written += vertices_.write_slots(mesh.vertices().data(), mesh.vertices().size(), mesh.changed_vertices());
+  }
+  const std::span<const uint32_t> indices = mesh.visible_indices();
+  const size_t triangles = indices.size() / 3;
+  if (triangles_.fit(triangles)) {
+    glVertexArrayElementBuffer(vertex_array_.id(), triangles_.id());
+    written += triangles_.write_all(indices.data(), triangles);
+  } else if (!follows) {
+    written += triangles_.write_all(indices.data(), triangles);
+  } else {
+    written += triangles_.write_slots(indices.data(), triangles, mesh.changed_triangles());
+  }
+  index_count_ = uint32_t(indices.size());
   origin_ = mesh.origin();
+  morph_time_ = mesh.morph_time();
   revision_ = mesh.revision();
   return written;
-}
-
-size_t TerrainRenderer::upload_vertices(const RoamMesh& mesh) {
-  const std::span<const RoamVertex> vertices = mesh.vertices();
-  const auto write = [&](size_t first, size_t count) {
-    glNamedBufferSubData(vertices_.id(), GLintptr(first * sizeof(RoamVertex)), GLsizeiptr(count * sizeof(RoamVertex)),
-                         vertices.data() + first);
-    return count * sizeof(RoamVertex);
-  };
-  const size_t capacity = grown(vertex_capacity_, vertices.size());
-  if (capacity != vertex_capacity_) {
-    vertices_ = gl::create_buffer();
-    vertex_capacity_ = capacity;
-    glNamedBufferStorage(vertices_.id(), GLsizeiptr(capacity * sizeof(RoamVertex)), nullptr, GL_DYNAMIC_STORAGE_BIT);
-    glVertexArrayVertexBuffer(vertex_array_.id(), 0, vertices_.id(), 0, sizeof(RoamVertex));
-    return vertices.empty() ? 0 : write(0, vertices.size());
-  }
-  if (vertices.empty()) return 0;
-  if (mesh.all_vertices_changed() || mesh.revision() != revision_ + 1) return write(0, vertices.size());
-
-  // Neighbouring slots go in one run.
-  const std::span<const uint32_t> changed = mesh.changed_vertices();
-  slots_.assign(changed.begin(), changed.end());
-  std::ranges::sort(slots_);
-  size_t written = 0;
-  for (size_t first = 0; first < slots_.size();) {
-    size_t last = first;
-    while (last + 1 < slots_.size() && slots_[last + 1] - slots_[last] <= k_joined_gap) ++last;
-    written += write(slots_[first], slots_[last] - slots_[first] + 1);
-    first = last + 1;
-  }
-  return written;
-}
-
-size_t TerrainRenderer::upload_indices(std::span<const uint32_t> indices) {
-  index_count_ = uint32_t(indices.size());
-  if (indices.empty()) return 0;
-  const size_t capacity = grown(index_capacity_, indices.size());
-  if (!indices_) {
-    indices_ = gl::create_buffer();
-    glVertexArrayElementBuffer(vertex_array_.id(), indices_.id());
-  }
-  // Fresh storage each time, so that the driver need not wait for the frames that still read the old one.
-  index_capacity_ = capacity;
-  glNamedBufferData(indices_.id(), GLsizeiptr(capacity * sizeof(uint32_t)), nullptr, GL_STREAM_DRAW);
-  glNamedBufferSubData(indices_.id(), 0, GLsizeiptr(indices.size_bytes()), indices.data());
-  return indices.size_bytes();
 }
 
 void TerrainRenderer::draw(const View& view, const gl::Frame& frame, const gl::GroundTextures& ground) {
@@ -127,6 +96,7 @@ void TerrainRenderer::draw(const View& view, const gl::Frame& frame, const gl::G
   set_vec4(program_, k_data_rectangle,
            glm::vec4(glm::vec2(ground.data_min() - eye), glm::vec2(ground.data_max() - eye)));
 
+  glProgramUniform1f(program_.id(), k_morph_time, morph_time_);
   glUseProgram(program_.id());
   glBindVertexArray(vertex_array_.id());
   bind_uniforms(bindings_.frame, frame.buffer());

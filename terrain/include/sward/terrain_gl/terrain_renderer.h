@@ -6,8 +6,7 @@
 #include <sward/gl/ground.h>
 #include <sward/gl/shader_library.h>
 #include <sward/terrain/roam_mesh.h>
-#include <span>
-#include <vector>
+#include <sward/terrain_gl/slot_buffer.h>
 
 namespace sward {
 
@@ -18,7 +17,7 @@ class TerrainRenderer {
 
   /// Copies what changed in the mesh since its last update into the GPU's buffers. Call once after each update: after
   /// a skipped one, or for another mesh, everything is uploaded; a second call writes nothing. Binds nothing. Returns
-  /// bytes written. Cost: the changed slots and the indices of the visible leaves.
+  /// bytes written: those of the changed slots.
   size_t upload(const RoamMesh& mesh);
 
   /// Draws the visible leaves into the bound framebuffer with one indexed draw.
@@ -32,17 +31,13 @@ class TerrainRenderer {
   uint32_t triangles() const { return index_count_ / 3; }
 
  private:
-  size_t upload_vertices(const RoamMesh& mesh);
-  size_t upload_indices(std::span<const uint32_t> indices);
-
   gl::Bindings bindings_;
   gl::Program program_;
   gl::VertexArray vertex_array_;
-  gl::Buffer vertices_, indices_;
-  size_t vertex_capacity_ = 0, index_capacity_ = 0;
+  SlotBuffer vertices_, triangles_;
   uint32_t index_count_ = 0;
-  uint64_t revision_ = 0;        ///< Of the mesh's state that the buffers hold; 0: none.
-  std::vector<uint32_t> slots_;  ///< Scratch.
+  uint64_t revision_ = 0;  ///< Of the mesh's state that the buffers hold; 0: none.
+  float morph_time_ = 0;
   glm::dvec3 origin_{0};
 };
 

@@ -1,0 +1,127 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+// Vertices do not jump: the centre of a diamond that is split rises from the drawn surface to its height, and the
+// centre of one that is given up first falls to the base edge's middle; only then is the diamond merged. The halves of
+// a falling diamond stand in the queues as the leaves that they are going to be, and falls are stopped half way when
+// they turn out to be worth splitting.
+//
+// Why the bound of a moving diamond's halves holds. Write the finest surface over a settled triangle T as T's plane
+// plus the sum over the splits k below it of h_k d_k: h_k in [0, 1] is the hat that split k raises, linear on all finer
+// triangles, d_k what it adds at its centre. The bound of T is at least the largest sum of |d_k| that meets at a point.
+// What is drawn is T's plane plus the sum of c_k d_k. At birth a vertex stands in the middle of its drawn neighbours,
+// so there c_k is the mean of theirs, which is at most the mean of h_k, which is h_k; moving mixes c_k with h_k (or,
+// falling, with 0); and linear interpolation keeps 0 <= c_k <= h_k on the whole triangle. So the difference is the sum
+// of (h_k - c_k) d_k, no more than the bound of T. The coarsest moving diamond above any point has settled corners.
+#include <algorithm>
+
+#include "roam_engine.h"
+
+namespace sward::roam {
+
+namespace {
+
+// After the view has come to rest everything has ended its motion within this time.
+constexpr double k_rest_seconds = 0.5;
+// Motions shorter than this are none.
+constexpr double k_least_seconds = 0.02;
+
+}  // namespace
+
+// Falls that follow one another, finer diamonds before coarser ones, must end in time: each takes half of what is left.
+float RoamEngine::fall_seconds() const {
+  const double left = still_since_ + k_rest_seconds - tree_.vertices.now;
+  return float(std::min(double(options_.morph_s), 0.5 * left));
+}
+
+// The diamond has just been split; its centre was drawn at `from_z`.
+void RoamEngine::rise(uint32_t node, double from_z) {
+  const uint32_t vertex = tree_.corner[tree_.child[node]].apex;
+  tree_.vertices.begin_motion(vertex, from_z, tree_.vertices.world[vertex].z, options_.morph_s);
+  motions_.push_back({node, vertex});
+}
+
+void RoamEngine::fall(uint32_t node) {
+  const float seconds = fall_seconds();
+  if (!morphs() || double(seconds) < k_least_seconds) return merge_now(node);
+  VertexPool& v = tree_.vertices;
+  const Corners& c = tree_.corner[node];
+  const uint32_t vertex = tree_.corner[tree_.child[node]].apex;
+  forget_diamond(node);
+  falling_surplus_ += merge_gain(node);
+  v.begin_motion(vertex, v.world[vertex].z, 0.5 * (v.world[c.left].z + v.world[c.right].z), seconds);
+  motions_.push_back({node, vertex});
+  for (const uint32_t half : {node, tree_.neighbour[node].base}) {
+    if (half == k_none) continue;
+    state_[half].cull |= k_falling;
+    for (uint32_t child = tree_.child[half]; child <= tree_.child[half] + 1; ++child) {
+      if (is_visible(child)) unplace(child);
+      state_[child].held = true;
+    }
+    if (is_visible(half)) place(half, read(half));
+  }
+}
+
+void RoamEngine::stop_fall(uint32_t node) {
+  VertexPool& v = tree_.vertices;
+  const uint32_t vertex = tree_.corner[tree_.child[node]].apex;
+  falling_surplus_ -= merge_gain(node);
+  for (const uint32_t half : {node, tree_.neighbour[node].base}) {
+    if (half == k_none) continue;
+    if (is_visible(half)) unplace(half);
+    state_[half].cull = CullFlags(state_[half].cull & ~k_falling);
+    for (uint32_t child = tree_.child[half]; child <= tree_.child[half] + 1; ++child) {
+      state_[child].held = false;
+      if (is_visible(child)) place(child, read(child));
+    }
+  }
+  // Its entry in motions_ stays.
+  v.begin_motion(vertex, v.drawn_z(vertex), v.world[vertex].z, options_.morph_s > 0 ? options_.morph_s : 1e-3f);
+}
+
+// Motions that are over, or whose diamond is gone.
+void RoamEngine::finish_motions() {
+  VertexPool& v = tree_.vertices;
+  for (size_t i = 0; i < motions_.size();) {
+    const Motion motion = motions_[i];
+    const bool lives = v.alive[motion.vertex] && v.moves(motion.vertex) && tree_.is_split(motion.node) &&
+                       tree_.corner[tree_.child[motion.node]].apex == motion.vertex;
+    if (lives && !v.arrived(motion.vertex) && morphs()) {
+      ++i;
+      continue;
+    }
+    motions_[i] = motions_.back();
+    motions_.pop_back();
+    if (!lives) continue;
+    settled_ = false;
+    if (state_[motion.node].cull & k_falling) {
+      merge_now(motion.node);
+      ++stats_.merges;
+    } else {
+      v.end_motion(motion.vertex);
+      if (!morphs()) v.reread(tree_.surface(), motion.vertex);
+      refresh_diamond(motion.node);
+    }
+  }
+  count_falling_surplus();
+}
+
+// Where triangles that came into sight leave no room for those on their way out.
+void RoamEngine::finish_falls_now() {
+  for (size_t i = motions_.size(); i-- > 0 && visible_count() > options_.max_triangles;) {
+    const Motion motion = motions_[i];
+    if (!tree_.vertices.moves(motion.vertex) || !(state_[motion.node].cull & k_falling)) continue;
+    if (!tree_.is_split(motion.node) || tree_.corner[tree_.child[motion.node]].apex != motion.vertex) continue;
+    falling_surplus_ -= merge_gain(motion.node);
+    merge_now(motion.node);
+    ++stats_.merges;
+  }
+}
+
+void RoamEngine::count_falling_surplus() {
+  falling_surplus_ = 0;
+  for (const Motion& motion : motions_)
+    if (tree_.is_split(motion.node) && (state_[motion.node].cull & k_falling)) falling_surplus_ += merge_gain(motion.node);
+}
+
+}  // namespace sward::roam

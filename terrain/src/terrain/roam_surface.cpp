@@ -1,0 +1,111 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+// What the surface says anew: after edits, and when parts of a world were loaded or dropped.
+#include <algorithm>
+
+#include "roam_engine.h"
+
+namespace sward::roam {
+
+namespace {
+
+// A diamond's bound holds what lies below it, which reaches beyond it by less than its own size.
+bool may_depend(const TriangleCorners& c, const LatticeBox& box) {
+  const LatticePoint low = glm::min(c.apex, glm::min(c.left, c.right)), high = glm::max(c.apex, glm::max(c.left, c.right));
+  const LatticePoint reach = high - low;
+  return low.x - reach.x <= box.last.x && low.y - reach.y <= box.last.y && high.x + reach.x >= box.first.x &&
+         high.y + reach.y >= box.first.y;
+}
+
+bool meets(const TriangleCorners& c, const LatticeBox& box) {
+  const LatticePoint low = glm::min(c.apex, glm::min(c.left, c.right)), high = glm::max(c.apex, glm::max(c.left, c.right));
+  return low.x <= box.last.x && low.y <= box.last.y && high.x >= box.first.x && high.y >= box.first.y;
+}
+
+bool holds(const LatticeBox& box, LatticePoint p) {
+  return p.x >= box.first.x && p.y >= box.first.y && p.x <= box.last.x && p.y <= box.last.y;
+}
+
+}  // namespace
+
+void RoamEngine::read_surface_again() {
+  for (const Change& change : changes_) {
+    if (change.box.empty()) continue;
+    for (uint32_t root = 0; root < tree_.root_count(); ++root) collapse_forbidden(root, change.box);
+    if (!change.heights) continue;
+    visits_.clear();
+    for (uint32_t root = 0; root < tree_.root_count(); ++root) reread(root, change.box);
+    // Only now all that a node may lead to is known.
+    for (const Visit& visit : visits_) look_again(visit.node);
+  }
+  changes_.clear();
+  settled_ = false;
+  // What could not be split may be by now.
+  if (options_.plain) return;
+  for (uint32_t node = blocked_queue_.highest(state_); node != k_none;) {
+    const uint32_t next = state_[node].next;
+    place(node, read(node));
+    node = next;
+  }
+}
+
+void RoamEngine::collapse_forbidden(uint32_t node, const LatticeBox& box) {
+  if (tree_.is_leaf(node) || !meets(tree_.corners(node), box)) return;
+  if (!tree_.surface().can_split(centre_of(tree_.corners(node)), tree_.id[node].level())) return collapse(node);
+  for (uint32_t turn = 0; turn < 2 && tree_.is_split(node); ++turn) collapse_forbidden(tree_.child[node] + turn, box);
+}
+
+// Heights and bounds; the nodes that may have changed are put into visits_, parents first.
+void RoamEngine::reread(uint32_t node, const LatticeBox& box) {
+  if (!may_depend(tree_.corners(node), box)) return;
+  const Corners& c = tree_.corner[node];
+  for (const uint32_t vertex : {c.apex, c.left, c.right}) {
+    const LatticePoint p = tree_.vertices.lattice[vertex];
+    if (!holds(box, p) || tree_.surface().height(p) == tree_.vertices.world[vertex].z) continue;
+    tree_.vertices.reread(tree_.surface(), vertex);
+    take_vertex(vertex);
+  }
+  tree_.reread(node);
+  visits_.push_back({node, 0});
+  if (tree_.is_leaf(node)) return;
+  reread(tree_.child[node], box);
+  reread(tree_.child[node] + 1, box);
+}
+
+void RoamEngine::look_again(uint32_t node) {
+  if (options_.plain) return look(node, inherited_flags(node));
+  NodeState& s = state_[node];
+  const uint32_t parent = tree_.parent[node];
+  const bool below_out = parent != k_none && !is_visible(parent);
+  if (below_out) return;
+  const Reading reading = read(node);
+  if (!is_visible(node)) {
+    if (reading.out()) {
+      watch_out(node, reading);
+    } else {
+      come_in(node, reading);
+    }
+  } else if (acts_as_leaf(node)) {
+    if (reading.out() && tree_.is_leaf(node)) {
+      s.due = 0;
+      go_out(node, reading);
+    } else {
+      place(node, reading);
+    }
+  }
+  if (tree_.is_split(node)) refresh_diamond(node);
+}
+
+// Merges the node's diamond after all that depends on it.
+void RoamEngine::collapse(uint32_t node) {
+  for (const uint32_t half : {node, tree_.neighbour[node].base}) {
+    if (half == k_none) continue;
+    for (uint32_t turn = 0; turn < 2; ++turn)
+      if (const uint32_t child = tree_.child[half] + turn; tree_.is_split(child)) collapse(child);
+  }
+  merge_now(node);
+  ++stats_.merges;
+}
+
+}  // namespace sward::roam
