@@ -290,20 +290,26 @@ void RoamEngine::look_at_diamonds() {
   due_diamonds_.clear();
 }
 
-// Once the view is still, what lingers at the edges of sight goes. The lists stay: the rest may go out later.
+// Once the view is still, what lingers at the edges of sight goes. What stays is noted again: it may go later.
 void RoamEngine::look_at_lingering() {
-  for (std::vector<uint32_t>* list : {&lingering_, &lingered_}) {
-    // Looking may note more.
-    for (size_t i = 0, count = list->size(); i < count; ++i) {
-      const uint32_t node = (*list)[i];
-      if (node >= tree_.size() || !tree_.is_alive(node)) continue;
-      if (tree_.is_split(node)) {
-        refresh_diamond(node);
-      } else if (is_visible(node) && !in_falling(node)) {
-        if (const Reading reading = read(node); reading.out()) go_out(node, reading);
+  lingered_.insert(lingered_.end(), lingering_.begin(), lingering_.end());
+  lingering_.clear();
+  std::sort(lingered_.begin(), lingered_.end());
+  lingered_.erase(std::unique(lingered_.begin(), lingered_.end()), lingered_.end());
+  for (const uint32_t node : lingered_) {
+    if (node >= tree_.size() || !tree_.is_alive(node)) continue;
+    if (tree_.is_split(node)) {
+      refresh_diamond(node);
+    } else if (is_visible(node) && !in_falling(node)) {
+      const Reading reading = read(node);
+      if (!reading.out()) {
+        lingering_.push_back(node);
+      } else {
+        go_out(node, reading);
       }
     }
   }
+  lingered_.clear();
 }
 
 // Steps double within an update, so that a mesh with room to spare is reached in few of them.
