@@ -156,6 +156,7 @@ class RoamEngine {
   void stop_fall(uint32_t node);
   void finish_motions();
   void finish_falls_now();
+  void finish_motions_now();
   void count_falling_surplus();
   bool centre_moves(uint32_t node) const { return tree_.vertices.moves(tree_.corner[tree_.child[node]].apex); }
 

@@ -118,6 +118,25 @@ void RoamEngine::finish_falls_now() {
   }
 }
 
+// What rises cannot be merged until it has arrived.
+void RoamEngine::finish_motions_now() {
+  finish_falls_now();
+  VertexPool& v = tree_.vertices;
+  const std::vector<Motion> motions = std::move(motions_);
+  motions_.clear();
+  for (const Motion& motion : motions) {
+    if (!v.alive[motion.vertex] || !v.moves(motion.vertex) || !tree_.is_split(motion.node)) continue;
+    if (tree_.corner[tree_.child[motion.node]].apex != motion.vertex) continue;
+    if (state_[motion.node].cull & k_falling) {
+      motions_.push_back(motion);
+      continue;
+    }
+    v.end_motion(motion.vertex);
+    v.reread(tree_.surface(), motion.vertex);
+    refresh_diamond(motion.node);
+  }
+}
+
 void RoamEngine::count_falling_surplus() {
   falling_surplus_ = 0;
   for (const Motion& motion : motions_)

@@ -220,6 +220,10 @@ void RoamEngine::shrink_to_budget() {
   while (visible_count() > options_.max_triangles) {
     uint32_t victim = cheapest_diamond(RoamMesh::k_artificial_max);
     if (victim == k_none) victim = merge_queue_.unprioritised();
+    if (victim == k_none && !motions_.empty()) {
+      finish_motions_now();
+      continue;
+    }
     if (victim == k_none) break;  // the root mesh, which no budget is below
     merge_now(victim);
     ++stats_.merges;

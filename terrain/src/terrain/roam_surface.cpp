@@ -43,11 +43,9 @@ void RoamEngine::read_surface_again() {
   settled_ = false;
   // What could not be split may be by now.
   if (options_.plain) return;
-  for (uint32_t node = blocked_queue_.highest(state_); node != k_none;) {
-    const uint32_t next = state_[node].next;
-    place(node, read(node));
-    node = next;
-  }
+  visits_.clear();
+  for (uint32_t node = 0; (node = blocked_queue_.highest(state_)) != k_none; visits_.push_back({node, 0})) unplace(node);
+  for (const Visit& visit : visits_) place(visit.node, read(visit.node));
 }
 
 void RoamEngine::collapse_forbidden(uint32_t node, const LatticeBox& box) {
