@@ -11,5 +11,6 @@
 #include <sward/terrain/error.h>
 #include <sward/terrain/fixed_triangles.h>
 #include <sward/terrain/height_field.h>
+#include <sward/terrain/queries.h>
 #include <sward/terrain/roam_mesh.h>
 #include <sward/terrain/view.h>
