@@ -27,8 +27,6 @@ constexpr int k_max_squares = 256;
 constexpr int k_max_root_bits = 17;
 constexpr int k_max_side = 131073;
 constexpr int64_t k_max_samples = int64_t(1) << 31;
-// The bounds' 16-bit format ends at 2^19 m.
-constexpr double k_max_span_m = 262144.0;
 
 std::string size_text(const HeightFieldDesc& desc) {
   return std::to_string(desc.columns) + " x " + std::to_string(desc.rows);
@@ -209,16 +207,21 @@ void HeightField::set_up_relief() {
   for (double& bound : relief_bound_) bound *= first_amplitude_;
 
   relief_shares_.assign(size_t(desc_.columns) * size_t(desc_.rows), 0);
+  compute_relief(glm::ivec2(0), glm::ivec2(desc_.columns, desc_.rows) - 1);
+}
+
+void HeightField::compute_relief(glm::ivec2 first, glm::ivec2 last) {
+  if (relief_shares_.empty()) return;
   const glm::dvec2 half_run = 0.5 / desc_.spacing * desc_.scale;
-  for (int row = 0; row < desc_.rows; ++row) {
+  for (int row = std::max(first.y, 0); row <= std::min(last.y, desc_.rows - 1); ++row) {
     const int north = std::max(row - 1, 0), south = std::min(row + 1, desc_.rows - 1);
-    for (int column = 0; column < desc_.columns; ++column) {
+    for (int column = std::max(first.x, 0); column <= std::min(last.x, desc_.columns - 1); ++column) {
       if (is_hole(column, row)) continue;
       const int west = std::max(column - 1, 0), east = std::min(column + 1, desc_.columns - 1);
       const double x = (raw(east, row) - raw(west, row)) * half_run.x * (east - west == 2 ? 1.0 : 2.0);
       const double y = (raw(column, north) - raw(column, south)) * half_run.y * (south - north == 2 ? 1.0 : 2.0);
       relief_shares_[size_t(row) * size_t(desc_.columns) + size_t(column)] =
-          relief::share(relief, float(std::sqrt(x * x + y * y)));
+          relief::share(desc_.relief, float(std::sqrt(x * x + y * y)));
     }
   }
 }

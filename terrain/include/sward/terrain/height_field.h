@@ -37,14 +37,15 @@ struct HeightFieldDesc {
   ReliefOptions relief;
 };
 
-/// Immutable heights over root squares side by side. Sample (column, row), row 0 the northern edge, stands at
+/// Heights over root squares side by side. Sample (column, row), row 0 the northern edge, stands at
 /// x = origin.x + (column - (columns-1)/2) dx, y = origin.y + ((rows-1)/2 - row) dy.
 ///
 /// The bintree covers whole root squares of 2^n + 1 samples: among the sizes that need at most 256 squares (the root
 /// mesh costs two triangles of every frame's budget a square), the one that pads least, the larger at a tie. What lies
 /// beyond the data is padding: it repeats the edge and is never drawn, seeded or counted in bounds.
 ///
-/// All calls are const and safe from several threads.
+/// Const calls are safe from several threads. Only edit() (edits.h) changes a field, in place; while it runs nothing
+/// else may use the field: no query, no mesh update.
 class HeightField {
  public:
   using Samples = std::variant<std::vector<uint16_t>, std::vector<float>>;
@@ -68,6 +69,7 @@ class HeightField {
   /// Number of samples that were holes.
   int64_t hole_count() const { return hole_count_; }
   /// Lowest and highest sample, metres, world (origin.z included); relief reaches up to relief_amplitude() beyond.
+  /// Edits widen both, and do not narrow them.
   glm::dvec2 height_range() const { return height_range_; }
   double relief_amplitude() const { return relief_amplitude_; }
   /// Western/southern and eastern/northern corner of the data, world.
@@ -107,12 +109,20 @@ class HeightField {
   uint64_t fingerprint() const;
 
  private:
+  friend class FieldEditor;
+  // The bounds' 16-bit format ends at 2^19 m.
+  static constexpr double k_max_span_m = 262144.0;
+  // Relief at a sample depends on samples up to so many columns and rows from it.
+  static constexpr int k_relief_reach = 1;
+
   double raw(int column, int row) const;
   double linear_height(LatticePoint p) const;
   double relief_share(LatticePoint p) const;
   Expected<void> adopt(Samples samples, std::span<const uint8_t> holes);
   void measure_range();
   void set_up_relief();
+  // The relief's tables for samples from `first` to `last`, cut to the data.
+  void compute_relief(glm::ivec2 first, glm::ivec2 last);
 
   HeightFieldDesc desc_;
   Samples samples_;
