@@ -24,6 +24,7 @@
 
 #include "bounds_parallel.h"
 #include "relief.h"
+#include "smoothing.h"
 
 namespace sward {
 
@@ -81,7 +82,8 @@ class BoundsBuilder {
         size_(field.root_squares() * (1 << field.root_bits()) + 1),
         data_(field.desc().columns, field.desc().rows),
         scale_(std::abs(field.desc().scale)),
-        relief_per_share_(field.relief_bound(field.data_level()) / 255.0) {
+        relief_per_share_(field.noise_bound_.front() / 255.0),
+        per_curvature_(field.curvatures_.empty() ? 0.0 : field.curvature_bound_.front()) {
     if (const auto* words = std::get_if<std::vector<uint16_t>>(&field.samples())) words_ = words->data();
     if (const auto* floats = std::get_if<std::vector<float>>(&field.samples())) floats_ = floats->data();
   }
@@ -91,14 +93,17 @@ class BoundsBuilder {
   // Level 2 (n - i) + 1, rows of multiples of h, columns of the box.
   void side_row(int row, int h, const SampleBox& box) const {
     const bool along_row = row / h % 2 == 0;
-    if (h == 1) strongest_row(row, box);
-    const std::vector<uint8_t>& strongest = strongest_in_row();
+    Columns& relief = columns();
+    if (h == 1) {
+      largest_in_rows(field_.relief_shares(), row - 2, row + 2, box, relief.shares);
+      largest_in_rows(field_.relief_curvatures(), row - 2, row + 1, box, relief.curvatures);
+    }
     const int q = h / 2;
     const std::array<glm::ivec2, 4> corners{{{-q, -q}, {q, -q}, {-q, q}, {q, q}}};
     const glm::ivec2 half = along_row ? glm::ivec2(h, 0) : glm::ivec2(0, h);
     for (int column = first_from(box.first.x, along_row ? h : 0, 2 * h); column <= box.last.x; column += 2 * h) {
       const glm::ivec2 centre(column, row);
-      store(centre, half, h == 1 ? relief_below(centre, strongest) : largest(centre, corners));
+      store(centre, half, h == 1 ? relief_below(centre, relief) : largest(centre, corners));
     }
   }
 
@@ -120,33 +125,48 @@ class BoundsBuilder {
     bool any = false;  // A valid sample or relief.
   };
 
-  // Strongest relief within two samples up and down, by column; filled by strongest_row().
-  static std::vector<uint8_t>& strongest_in_row() {
-    static thread_local std::vector<uint8_t> strongest;
-    return strongest;
+  // Largest noise and curvature in the rows that matter to a row of diamonds, by column; filled by largest_in_rows().
+  struct Columns {
+    std::vector<uint8_t> shares, curvatures;
+  };
+  static Columns& columns() {
+    static thread_local Columns largest;
+    return largest;
   }
 
-  void strongest_row(int row, const SampleBox& box) const {
-    if (relief_per_share_ == 0.0) return;
-    std::vector<uint8_t>& strongest = strongest_in_row();
-    strongest.resize(size_t(data_.x));
-    const int first = std::clamp(box.first.x - 2, 0, data_.x - 1), last = std::min(box.last.x + 2, data_.x - 1);
-    std::fill(strongest.begin() + first, strongest.begin() + last + 1, uint8_t(0));
-    for (int y = std::max(row - 2, 0); y <= std::min(row + 2, data_.y - 1); ++y) {
-      const uint8_t* shares = field_.relief_shares().data() + size_t(y) * size_t(data_.x);
-      for (int x = first; x <= last; ++x) {
-        strongest[size_t(x)] = std::max(strongest[size_t(x)], shares[x]);
-      }
+  // Of the rows from `first` to `last`, for columns within two samples of the box.
+  void largest_in_rows(std::span<const uint8_t> table, int first, int last, const SampleBox& box,
+                       std::vector<uint8_t>& out) const {
+    if (table.empty()) return;
+    out.resize(size_t(data_.x));
+    const int begin = std::clamp(box.first.x - 2, 0, data_.x - 1), end = std::min(box.last.x + 2, data_.x - 1);
+    std::fill(out.begin() + begin, out.begin() + end + 1, uint8_t(0));
+    for (int y = std::max(first, 0); y <= std::min(last, data_.y - 1); ++y) {
+      const uint8_t* values = table.data() + size_t(y) * size_t(data_.x);
+      for (int x = begin; x <= end; ++x) out[size_t(x)] = std::max(out[size_t(x)], values[x]);
     }
   }
 
-  // The window of relief_bound(centre, level) for the four diamonds of the data's level, taken together.
-  Below relief_below(glm::ivec2 centre, const std::vector<uint8_t>& strongest) const {
-    if (relief_per_share_ == 0.0) return {};
-    uint8_t share = 0;
-    const int last = std::min(centre.x + 2, data_.x - 1);
-    for (int x = std::max(centre.x - 2, 0); x <= last; ++x) share = std::max(share, strongest[size_t(x)]);
-    return {share * relief_per_share_, share > 0};
+  uint8_t largest_in_columns(const std::vector<uint8_t>& values, int first, int last) const {
+    uint8_t largest = 0;
+    const int end = std::min(last, data_.x - 1);
+    for (int x = std::max(first, 0); x <= end; ++x) largest = std::max(largest, values[size_t(x)]);
+    return largest;
+  }
+
+  // The windows of relief_bound(centre, level) for the four diamonds of the data's level, taken together: samples
+  // within two of the centre, and the cells between them.
+  Below relief_below(glm::ivec2 centre, const Columns& largest) const {
+    Below below;
+    if (relief_per_share_ > 0.0) {
+      below.bound = largest_in_columns(largest.shares, centre.x - 2, centre.x + 2) * relief_per_share_;
+    }
+    if (per_curvature_ > 0.0) {
+      const uint8_t code = largest_in_columns(largest.curvatures, centre.x - 2, centre.x + 1);
+      below.bound += smoothing::decode(code) * per_curvature_;
+    }
+    below.any = below.bound > 0.0;
+    return below;
   }
 
   // Codes rise with what they stand for; one above, k_nothing wraps to 0, below all others.
@@ -189,7 +209,7 @@ class BoundsBuilder {
   glm::ivec2 size_;  // Samples, padding included.
   glm::ivec2 data_;  // Without.
   double scale_;
-  double relief_per_share_;
+  double relief_per_share_, per_curvature_;
   const uint16_t* words_ = nullptr;
   const float* floats_ = nullptr;
 };

@@ -15,8 +15,10 @@
 #include <cstring>
 #include <string>
 
+#include "bounds_parallel.h"
 #include "height_field_holes.h"
 #include "relief.h"
+#include "smoothing.h"
 
 namespace sward {
 
@@ -191,44 +193,85 @@ void HeightField::measure_range() {
 
 void HeightField::set_up_relief() {
   const ReliefOptions& relief = desc_.relief;
-  const int below = levels_below(desc_.spacing, double(relief.finest_edge_m));
-  if (!relief.enabled || below == 0) {
-    relief_bound_.assign(1, 0.0);
-    return;
-  }
+  const int below = relief.enabled ? levels_below(desc_.spacing, double(relief.finest_edge_m)) : 0;
   lattice_.max_level = std::min(data_level() + below, k_max_level);
-  relief_bound_.assign(size_t(max_level() - data_level()) + 1, 0.0);
+  const int levels = max_level() - data_level();
+  noise_bound_.assign(size_t(levels) + 1, 0.0);
+  curvature_bound_ = smoothing::bound_table(levels);
+  if (levels == 0) return;
+  const size_t count = size_t(desc_.columns) * size_t(desc_.rows);
+  if (relief.smooth) curvatures_.assign(count, 0);
   // With no height there is nothing to evaluate.
-  if (relief.roughness == 0.0f) return;
-  octaves_ = (max_level() - data_level()) / 2;
-  first_amplitude_ = double(relief.roughness) * std::sqrt(desc_.spacing.x * desc_.spacing.y);
-  relief_amplitude_ = first_amplitude_ * relief::k_noise_limit * (2.0 - std::ldexp(2.0, -octaves_));
-  relief_bound_ = relief::bound_table(octaves_, max_level() - data_level());
-  for (double& bound : relief_bound_) bound *= first_amplitude_;
-
-  relief_shares_.assign(size_t(desc_.columns) * size_t(desc_.rows), 0);
+  if (relief.roughness > 0.0f) {
+    octaves_ = levels / 2;
+    first_amplitude_ = double(relief.roughness) * std::sqrt(desc_.spacing.x * desc_.spacing.y);
+    noise_bound_ = relief::bound_table(octaves_, levels);
+    for (double& bound : noise_bound_) bound *= first_amplitude_;
+    relief_shares_.assign(count, 0);
+  }
   compute_relief(glm::ivec2(0), glm::ivec2(desc_.columns, desc_.rows) - 1);
 }
 
 void HeightField::compute_relief(glm::ivec2 first, glm::ivec2 last) {
-  if (relief_shares_.empty()) return;
-  const glm::dvec2 half_run = 0.5 / desc_.spacing * desc_.scale;
-  for (int row = std::max(first.y, 0); row <= std::min(last.y, desc_.rows - 1); ++row) {
-    const int north = std::max(row - 1, 0), south = std::min(row + 1, desc_.rows - 1);
-    for (int column = std::max(first.x, 0); column <= std::min(last.x, desc_.columns - 1); ++column) {
-      if (is_hole(column, row)) continue;
-      const int west = std::max(column - 1, 0), east = std::min(column + 1, desc_.columns - 1);
-      const double x = (raw(east, row) - raw(west, row)) * half_run.x * (east - west == 2 ? 1.0 : 2.0);
-      const double y = (raw(column, north) - raw(column, south)) * half_run.y * (south - north == 2 ? 1.0 : 2.0);
-      relief_shares_[size_t(row) * size_t(desc_.columns) + size_t(column)] =
-          relief::share(desc_.relief, float(std::sqrt(x * x + y * y)));
+  const glm::ivec2 data(desc_.columns - 1, desc_.rows - 1);
+  first = glm::max(first, glm::ivec2(0));
+  last = glm::min(last, data);
+  const int64_t cost = last.x - first.x + 1;
+  if (!relief_shares_.empty()) {
+    parallel_rows({last.y - first.y + 1, cost, 0}, {}, [&](int k) { compute_shares(first.y + k, first.x, last.x); });
+  }
+  if (!curvatures_.empty()) {
+    // A cell reads one sample more to the west and north than those at its corners.
+    first = glm::max(first - 1, glm::ivec2(0));
+    last = glm::min(last, data - 1);
+    parallel_rows({last.y - first.y + 1, cost, 0}, {},
+                  [&](int k) { compute_curvatures(first.y + k, first.x, last.x); });
+    for (int row = first.y; row <= last.y; ++row) {
+      const auto begin = curvatures_.begin() + int64_t(row) * desc_.columns;
+      const uint8_t largest = *std::max_element(begin + first.x, begin + last.x + 1);
+      largest_curvature_ = std::max(largest_curvature_, largest);
     }
   }
+  relief_amplitude_ = first_amplitude_ * relief::k_noise_limit * (2.0 - std::ldexp(2.0, -octaves_)) +
+                      smoothing::decode(largest_curvature_) * curvature_bound_.front();
+}
+
+void HeightField::compute_shares(int row, int first, int last) {
+  const glm::dvec2 half_run = 0.5 / desc_.spacing * desc_.scale;
+  const int north = std::max(row - 1, 0), south = std::min(row + 1, desc_.rows - 1);
+  for (int column = first; column <= last; ++column) {
+    if (is_hole(column, row)) continue;
+    const int west = std::max(column - 1, 0), east = std::min(column + 1, desc_.columns - 1);
+    const double x = (raw(east, row) - raw(west, row)) * half_run.x * (east - west == 2 ? 1.0 : 2.0);
+    const double y = (raw(column, north) - raw(column, south)) * half_run.y * (south - north == 2 ? 1.0 : 2.0);
+    relief_shares_[size_t(row) * size_t(desc_.columns) + size_t(column)] =
+        relief::share(desc_.relief, float(std::sqrt(x * x + y * y)));
+  }
+}
+
+void HeightField::compute_curvatures(int row, int first, int last) {
+  const double scale = std::abs(desc_.scale);
+  uint8_t* codes = curvatures_.data() + size_t(row) * size_t(desc_.columns);
+  std::visit(
+      [&](const auto& values) {
+        for (int column = first; column <= last; ++column) {
+          if (hole_count_ > 0 && is_hole(column, row) && is_hole(column + 1, row) && is_hole(column, row + 1) &&
+              is_hole(column + 1, row + 1)) {
+            continue;
+          }
+          const auto patch = smoothing::gather(values.data(), {desc_.columns, desc_.rows}, {column, row});
+          codes[column] = smoothing::encode_up(scale * smoothing::curvature(patch));
+        }
+      },
+      samples_);
 }
 
 uint64_t HeightField::fingerprint() const {
   Hash hash;
-  for (const int number : {desc_.columns, desc_.rows, root_bits(), max_level(), octaves_}) hash.add(uint64_t(number));
+  const int smooth = curvatures_.empty() ? 0 : 1;
+  for (const int number : {desc_.columns, desc_.rows, root_bits(), max_level(), octaves_, smooth}) {
+    hash.add(uint64_t(number));
+  }
   for (const double number : {desc_.spacing.x, desc_.spacing.y, desc_.scale, first_amplitude_}) hash.add(number);
   hash.add(uint64_t(samples_.index()));
   std::visit([&](const auto& values) { hash.add(values.data(), values.size() * sizeof(values[0])); }, samples_);
