@@ -83,7 +83,7 @@ class BoundsBuilder {
         data_(field.desc().columns, field.desc().rows),
         scale_(std::abs(field.desc().scale)),
         relief_per_share_(field.noise_bound_.front() / 255.0),
-        per_curvature_(field.curvatures_.empty() ? 0.0 : field.curvature_bound_.front()) {
+        is_smooth_(!field.relief_curvatures().empty()) {
     if (const auto* words = std::get_if<std::vector<uint16_t>>(&field.samples())) words_ = words->data();
     if (const auto* floats = std::get_if<std::vector<float>>(&field.samples())) floats_ = floats->data();
   }
@@ -161,9 +161,9 @@ class BoundsBuilder {
     if (relief_per_share_ > 0.0) {
       below.bound = largest_in_columns(largest.shares, centre.x - 2, centre.x + 2) * relief_per_share_;
     }
-    if (per_curvature_ > 0.0) {
+    if (is_smooth_) {
       const uint8_t code = largest_in_columns(largest.curvatures, centre.x - 2, centre.x + 1);
-      below.bound += smoothing::decode(code) * per_curvature_;
+      below.bound += smoothing::decode(code) * smoothing::k_coarse_shares[0];
     }
     below.any = below.bound > 0.0;
     return below;
@@ -209,7 +209,8 @@ class BoundsBuilder {
   glm::ivec2 size_;  // Samples, padding included.
   glm::ivec2 data_;  // Without.
   double scale_;
-  double relief_per_share_, per_curvature_;
+  double relief_per_share_;
+  bool is_smooth_;
   const uint16_t* words_ = nullptr;
   const float* floats_ = nullptr;
 };

@@ -200,7 +200,10 @@ void HeightField::set_up_relief() {
   curvature_bound_ = smoothing::bound_table(levels);
   if (levels == 0) return;
   const size_t count = size_t(desc_.columns) * size_t(desc_.rows);
-  if (relief.smooth) curvatures_.assign(count, 0);
+  if (relief.smooth) {
+    coarse_curvatures_.assign(count, 0);
+    fine_curvatures_.assign(count, 0);
+  }
   // With no height there is nothing to evaluate.
   if (relief.roughness > 0.0f) {
     octaves_ = levels / 2;
@@ -220,20 +223,24 @@ void HeightField::compute_relief(glm::ivec2 first, glm::ivec2 last) {
   if (!relief_shares_.empty()) {
     parallel_rows({last.y - first.y + 1, cost, 0}, {}, [&](int k) { compute_shares(first.y + k, first.x, last.x); });
   }
-  if (!curvatures_.empty()) {
+  if (!coarse_curvatures_.empty()) {
     // A cell reads one sample more to the west and north than those at its corners.
     first = glm::max(first - 1, glm::ivec2(0));
     last = glm::min(last, data - 1);
     parallel_rows({last.y - first.y + 1, cost, 0}, {},
                   [&](int k) { compute_curvatures(first.y + k, first.x, last.x); });
-    for (int row = first.y; row <= last.y; ++row) {
-      const auto begin = curvatures_.begin() + int64_t(row) * desc_.columns;
-      const uint8_t largest = *std::max_element(begin + first.x, begin + last.x + 1);
-      largest_curvature_ = std::max(largest_curvature_, largest);
-    }
+    const auto largest_of = [&](const std::vector<uint8_t>& table, uint8_t largest) {
+      for (int row = first.y; row <= last.y; ++row) {
+        const auto begin = table.begin() + int64_t(row) * desc_.columns;
+        largest = std::max(largest, *std::max_element(begin + first.x, begin + last.x + 1));
+      }
+      return largest;
+    };
+    largest_coarse_ = largest_of(coarse_curvatures_, largest_coarse_);
+    largest_fine_ = largest_of(fine_curvatures_, largest_fine_);
   }
   relief_amplitude_ = first_amplitude_ * relief::k_noise_limit * (2.0 - std::ldexp(2.0, -octaves_)) +
-                      smoothing::decode(largest_curvature_) * curvature_bound_.front();
+                      smoothing::decode(largest_coarse_);
 }
 
 void HeightField::compute_shares(int row, int first, int last) {
@@ -251,7 +258,7 @@ void HeightField::compute_shares(int row, int first, int last) {
 
 void HeightField::compute_curvatures(int row, int first, int last) {
   const double scale = std::abs(desc_.scale);
-  uint8_t* codes = curvatures_.data() + size_t(row) * size_t(desc_.columns);
+  const size_t begin = size_t(row) * size_t(desc_.columns);
   std::visit(
       [&](const auto& values) {
         for (int column = first; column <= last; ++column) {
@@ -260,7 +267,10 @@ void HeightField::compute_curvatures(int row, int first, int last) {
             continue;
           }
           const auto patch = smoothing::gather(values.data(), {desc_.columns, desc_.rows}, {column, row});
-          codes[column] = smoothing::encode_up(scale * smoothing::curvature(patch));
+          const smoothing::Codes codes =
+              smoothing::curvature_codes(patch, scale, (column + row) % 2 == 0, curvature_bound_);
+          coarse_curvatures_[begin + size_t(column)] = codes.coarse;
+          fine_curvatures_[begin + size_t(column)] = codes.fine;
         }
       },
       samples_);
@@ -268,7 +278,7 @@ void HeightField::compute_curvatures(int row, int first, int last) {
 
 uint64_t HeightField::fingerprint() const {
   Hash hash;
-  const int smooth = curvatures_.empty() ? 0 : 1;
+  const int smooth = coarse_curvatures_.empty() ? 0 : 1;
   for (const int number : {desc_.columns, desc_.rows, root_bits(), max_level(), octaves_, smooth}) {
     hash.add(uint64_t(number));
   }

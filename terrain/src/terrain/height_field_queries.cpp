@@ -173,7 +173,7 @@ double HeightField::relief_share(LatticePoint p) const {
 }
 
 double HeightField::height(LatticePoint p) const {
-  const double base = curvatures_.empty() ? linear_height(p) : smooth_height(p);
+  const double base = coarse_curvatures_.empty() ? linear_height(p) : smooth_height(p);
   if (octaves_ == 0) return base;
   const double sum = relief::octave_sum(p, k_root_bits - root_bits(), octaves_, desc_.relief.seed);
   return sum == 0.0 ? base : base + first_amplitude_ * relief_share(p) * sum;
@@ -217,7 +217,8 @@ glm::dvec2 HeightField::data_gradient(glm::dvec2 xy) const {
 }
 
 glm::dvec2 HeightField::relief_gradient(LatticePoint p) const {
-  const glm::dvec2 smooth = curvatures_.empty() ? glm::dvec2(0.0) : smooth_gradient(p) - data_gradient(world_xy(p));
+  const glm::dvec2 smooth =
+      coarse_curvatures_.empty() ? glm::dvec2(0.0) : smooth_gradient(p) - data_gradient(world_xy(p));
   if (octaves_ == 0) return smooth;
   const int step_bits = k_root_bits - root_bits();
   const glm::dvec3 sum = relief::octave_sum_with_gradient(p, step_bits, octaves_, desc_.relief.seed);
@@ -233,7 +234,7 @@ glm::dvec2 HeightField::relief_gradient(LatticePoint p) const {
 double HeightField::relief_bound(int level) const {
   if (level >= max_level()) return 0.0;
   const auto below = size_t(std::max(level, data_level()) - data_level());
-  return noise_bound_[below] + smoothing::decode(largest_curvature_) * curvature_bound_[below];
+  return noise_bound_[below] + smoothing::bound({largest_coarse_, largest_fine_}, below, curvature_bound_);
 }
 
 double HeightField::relief_bound(LatticePoint centre, int level) const {
@@ -250,8 +251,10 @@ double HeightField::relief_bound(LatticePoint centre, int level) const {
   };
   const auto below = size_t(level - data_level());
   // The last samples' cells lie beyond the window.
+  const bool coarse = below < smoothing::k_tried_levels;
+  const uint8_t largest = largest_in(coarse ? coarse_curvatures_ : fine_curvatures_, window.last - 1);
   return largest_in(relief_shares_, window.last) / 255.0 * noise_bound_[below] +
-         smoothing::decode(largest_in(curvatures_, window.last - 1)) * curvature_bound_[below];
+         smoothing::bound({largest, largest}, below, curvature_bound_);
 }
 
 }  // namespace sward

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 // The smooth surface through the samples: bicubic convolution (Keys, "Cubic Convolution Interpolation for Digital Image
@@ -40,13 +41,13 @@ Patch gather(const Sample* samples, glm::ivec2 size, glm::ivec2 cell) {
   return patch;
 }
 
-inline std::array<double, 4> weights(double t) {
+constexpr std::array<double, 4> weights(double t) {
   return {0.5 * t * ((2.0 - t) * t - 1.0), 1.0 + 0.5 * t * t * (3.0 * t - 5.0), 0.5 * t * (1.0 + t * (4.0 - 3.0 * t)),
           0.5 * t * t * (t - 1.0)};
 }
 
 // Their derivatives.
-inline std::array<double, 4> slope_weights(double t) {
+constexpr std::array<double, 4> slope_weights(double t) {
   return {0.5 * (t * (4.0 - 3.0 * t) - 1.0), 0.5 * t * (9.0 * t - 10.0), 0.5 * (1.0 + t * (8.0 - 9.0 * t)),
           0.5 * t * (3.0 * t - 2.0)};
 }
@@ -60,15 +61,30 @@ inline double weighted(const Patch& patch, const std::array<double, 4>& across, 
   return sum;
 }
 
-// Upper bound of the curvature over the cell: |B_uu|, |B_vv| and half the second derivative along (1, 1) and (1, -1).
-double curvature(const Patch& patch);
-
-// A curvature in eight bits, eight codes an octave from 2^-8 on, rounded up; 0 is 0.
+// A curvature, or metres, in eight bits: eight codes an octave from 2^-8 on, rounded up; 0 is 0.
 uint8_t encode_up(double curvature);
 double decode(uint8_t code);
 
 // Bounds per unit of curvature: entry i is the sum over the levels from data level + i to the end of what splits of
 // them add; `levels` entries and a last one of 0.
 std::vector<double> bound_table(int levels);
+
+// Levels below the data whose splits are tried one by one, and the shares of a cell's coarse value (metres) that bound
+// what splits of data level + i and below add in it.
+inline constexpr int k_tried_levels = 4;
+inline constexpr std::array<double, k_tried_levels> k_coarse_shares{1.0, 0.75, 0.5, 0.4};
+
+// Codes for a cell, heights in units of `scale`. `fine`: its curvature. `falls_east`: its diagonal begins in the
+// north-west.
+struct Codes {
+  uint8_t coarse = 0, fine = 0;
+};
+Codes curvature_codes(const Patch& patch, double scale, bool falls_east, std::span<const double> table);
+
+// What splits of data level + below and finer add at most where no cell has larger codes.
+inline double bound(const Codes& largest, size_t below, std::span<const double> table) {
+  if (below < k_tried_levels) return decode(largest.coarse) * k_coarse_shares[below];
+  return decode(largest.fine) * table[below];
+}
 
 }  // namespace sward::smoothing

@@ -108,9 +108,9 @@ class HeightField {
   double relief_bound(LatticePoint centre, int level) const;
   /// Local strength of the noise by sample, 255: full; 0 in holes. Empty without noise.
   std::span<const uint8_t> relief_shares() const { return relief_shares_; }
-  /// Curvature by cell (at its north-western sample), coded as smoothing.h says; 0 where a cell's corners are all holes
-  /// and in the last column and row. Empty where the surface is not smooth.
-  std::span<const uint8_t> relief_curvatures() const { return curvatures_; }
+  /// What the smooth surface adds to bounds by cell (at its north-western sample), coded; rises with it. 0 where a
+  /// cell's corners are all holes and in the last column and row. Empty where the surface is not smooth.
+  std::span<const uint8_t> relief_curvatures() const { return coarse_curvatures_; }
 
   /// Hash of all that bounds depend on: sizes, spacing, scale, samples, holes, relief. Cost: 1 ns a sample.
   uint64_t fingerprint() const;
@@ -146,8 +146,9 @@ class HeightField {
   int octaves_ = 0;                     // of relief; 0: none
   double first_amplitude_ = 0;          // metres, of octave 0; halves with each octave
   std::vector<uint8_t> relief_shares_;  // by sample; empty without noise
-  std::vector<uint8_t> curvatures_;     // by cell; empty where the surface is not smooth
-  uint8_t largest_curvature_ = 0;
+  // By cell, as smoothing.h says; empty where the surface is not smooth.
+  std::vector<uint8_t> coarse_curvatures_, fine_curvatures_;
+  uint8_t largest_coarse_ = 0, largest_fine_ = 0;
   // By level, from data_level() to max_level(): of noise at full strength, and of a curvature of 1.
   std::vector<double> noise_bound_, curvature_bound_;
 };
