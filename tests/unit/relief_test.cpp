@@ -33,6 +33,7 @@ Ground ground(int columns, int rows, glm::dvec2 spacing, std::vector<float> samp
   desc.rows = rows;
   desc.spacing = spacing;
   desc.relief.flat_share = flat_share;
+  desc.relief.smooth = false;
   HeightField field = make(desc, samples, holes);
   desc.relief.enabled = false;
   return {std::move(field), make(desc, samples, holes)};
@@ -253,6 +254,175 @@ TEST(Relief, GradientAgreesWithDifferences) {
     ASSERT_NEAR(gradient.x, x, 1e-4);
     ASSERT_NEAR(gradient.y, y, 1e-4);
   }
+}
+
+// The smooth surface alone.
+HeightField smooth_ground(int columns, int rows, glm::dvec2 spacing, const std::vector<float>& samples,
+                          const std::vector<uint8_t>& holes = {}) {
+  HeightFieldDesc desc;
+  desc.columns = columns;
+  desc.rows = rows;
+  desc.spacing = spacing;
+  desc.relief.roughness = 0.0f;
+  return make(desc, samples, holes);
+}
+
+HeightField smooth_rough_ground() {
+  return smooth_ground(65, 48, {9.0, 13.0}, rough_heights(65, 48, 3));
+}
+
+TEST(SmoothRelief, GoesThroughEverySample) {
+  const HeightField field = smooth_rough_ground();
+  const int step = field.sample_step();
+  for (int row = 0; row < 48; ++row) {
+    for (int column = 0; column < 65; ++column) {
+      ASSERT_EQ(field.height(LatticePoint(column, row) * step), field.sample(column, row));
+    }
+  }
+}
+
+// Interpolation by Keys' kernel with a = -1/2 reproduces polynomials of second degree.
+TEST(SmoothRelief, ReproducesQuadrics) {
+  const auto quadric = [](double x, double y) { return 0.3 * x * x - 0.7 * x * y + 0.2 * y * y + x - 2.0 * y; };
+  std::vector<float> heights;
+  for (int row = 0; row < 17; ++row) {
+    for (int column = 0; column < 17; ++column) heights.push_back(float(quadric(column, row)));
+  }
+  const HeightField field = smooth_ground(17, 17, {8.0, 8.0}, heights);
+  const int step = field.sample_step();
+  std::mt19937 random(1);
+  for (int i = 0; i < 5000; ++i) {
+    const LatticePoint p(step + int(random() % uint32_t(14 * step)), step + int(random() % uint32_t(14 * step)));
+    const glm::dvec2 place = glm::dvec2(p) / double(step);
+    ASSERT_NEAR(field.height(p), quadric(place.x, place.y), 1e-4);
+  }
+}
+
+TEST(SmoothRelief, PlanesStayPlanesUpToTheBorder) {
+  std::vector<float> heights;
+  for (int row = 0; row < 9; ++row) {
+    for (int column = 0; column < 17; ++column) heights.push_back(float(3 * column + 8 * row));
+  }
+  const HeightField field = smooth_ground(17, 9, {8.0, 8.0}, heights);
+  const int step = field.sample_step();
+  std::mt19937 random(1);
+  for (int i = 0; i < 5000; ++i) {
+    const LatticePoint p(int(random() % uint32_t(16 * step + 1)), int(random() % uint32_t(8 * step + 1)));
+    ASSERT_NEAR(field.height(p), (3.0 * p.x + 8.0 * p.y) / step, 1e-9);
+  }
+  EXPECT_LT(field.relief_bound(0), 1e-9);
+}
+
+// Slopes do not jump where cells and their halves meet; those of the data's triangles do.
+TEST(SmoothRelief, HasNoCreases) {
+  const HeightField field = smooth_rough_ground();
+  const int step = field.sample_step();
+  std::mt19937 random(2);
+  const auto crease = [&](const HeightField& ground, LatticePoint p, LatticePoint way) {
+    return std::abs(ground.height(p + way) - 2.0 * ground.height(p) + ground.height(p - way));
+  };
+  HeightFieldDesc desc = field.desc();
+  desc.relief.smooth = false;
+  const HeightField flat = make(desc, rough_heights(65, 48, 3));
+  double largest = 0.0, largest_flat = 0.0;
+  for (int i = 0; i < 20000; ++i) {
+    LatticePoint p((1 + int(random() % 63)) * step, step + int(random() % uint32_t(45 * step)));
+    largest = std::max(largest, crease(field, p, {16, 0}));
+    largest_flat = std::max(largest_flat, crease(flat, p, {16, 0}));
+  }
+  EXPECT_LT(largest, 0.02 * largest_flat);
+}
+
+TEST(SmoothRelief, StaysWithinTheLocalBound) {
+  const HeightField field = smooth_rough_ground();
+  std::mt19937 random(13);
+  double best = 0.0, lost = 0.0;
+  int64_t checked = 0;
+  for (int level = field.data_level(); level < field.max_level(); ++level) {
+    for (int i = 0; i < 5000; ++i) {
+      const Triangle t = random_triangle(field, level, random);
+      if (!field.inside(t.apex) || !field.inside(t.left) || !field.inside(t.right)) continue;
+      const double bound = field.relief_bound(t.middle(), level);
+      ASSERT_LE(bound, field.relief_bound(level) * (1.0 + 1e-12));
+      double largest = 0.0;
+      for (int k = 0; k < 20; ++k) {
+        Triangle small = t;
+        while (small.level < field.max_level()) small = small.child(int(random() % 2));
+        largest =
+            std::max(largest, std::abs(field.height(small.apex) - plane_height(field, t, glm::dvec2(small.apex))));
+      }
+      ASSERT_LE(largest, bound + 1e-9) << "level " << level;
+      best = std::max(best, largest / bound);
+      lost += bound / std::max(largest, 1e-3);
+      ++checked;
+    }
+  }
+  EXPECT_GT(best, 0.4);
+  RecordProperty("largest_share_of_the_bound", std::to_string(best));
+  RecordProperty("bound_over_largest_mean", std::to_string(lost / double(checked)));
+}
+
+TEST(SmoothRelief, BoundsGrowFromChildToParent) {
+  const HeightField field = smooth_rough_ground();
+  std::mt19937 random(14);
+  for (int i = 0; i < 20000; ++i) {
+    Triangle t = random_triangle(field, field.data_level(), random);
+    while (t.level < field.max_level()) {
+      const Triangle child = t.child(int(random() % 2));
+      ASSERT_GE(field.relief_bound(t.middle(), t.level), field.relief_bound(child.middle(), child.level));
+      t = child;
+    }
+  }
+}
+
+TEST(SmoothRelief, GradientsAddUpToThatOfTheSurface) {
+  HeightFieldDesc desc = smooth_rough_ground().desc();
+  desc.relief.roughness = 0.05f;
+  const HeightField field = make(desc, rough_heights(65, 48, 3));
+  const int step = field.sample_step();
+  const glm::dvec2 unit = desc.spacing / double(step);
+  std::mt19937 random(15);
+  for (int i = 0; i < 20000; ++i) {
+    LatticePoint p = random_point(field, random) / 2 + LatticePoint(step, step);
+    if (i % 4 == 0) p = p / step * step;
+    const double x = (field.height(p + LatticePoint(1, 0)) - field.height(p - LatticePoint(1, 0))) / (2.0 * unit.x);
+    const double y = (field.height(p - LatticePoint(0, 1)) - field.height(p + LatticePoint(0, 1))) / (2.0 * unit.y);
+    const glm::dvec2 gradient = field.data_gradient(field.world_xy(p)) + field.relief_gradient(p);
+    ASSERT_NEAR(gradient.x, x, 1e-3);
+    ASSERT_NEAR(gradient.y, y, 1e-3);
+  }
+}
+
+TEST(SmoothRelief, OvershootLiesWithinTheAmplitude) {
+  const HeightField field = smooth_rough_ground();
+  std::mt19937 random(16);
+  double beyond = 0.0;
+  for (int i = 0; i < 200000; ++i) {
+    const double z = field.height(random_point(field, random));
+    beyond = std::max({beyond, field.height_range()[0] - z, z - field.height_range()[1]});
+  }
+  EXPECT_GT(beyond, 0.0);
+  EXPECT_LE(beyond, field.relief_amplitude());
+}
+
+TEST(SmoothRelief, SmallestFields) {
+  for (const glm::ivec2 size : {glm::ivec2(2, 2), {3, 2}, {2, 7}}) {
+    const HeightField field = smooth_ground(size.x, size.y, {8.0, 8.0}, rough_heights(size.x, size.y, 3));
+    std::mt19937 random(17);
+    for (int i = 0; i < 2000; ++i) {
+      const Triangle t = random_triangle(field, field.data_level() + int(random() % 4), random);
+      if (!field.inside(t.apex) || !field.inside(t.left) || !field.inside(t.right)) continue;
+      const double z = field.height(t.middle());
+      const double error = std::abs(z - 0.5 * (field.height(t.left) + field.height(t.right)));
+      ASSERT_LE(error, field.relief_bound(t.middle(), t.level) + 1e-9);
+    }
+  }
+}
+
+TEST(SmoothRelief, ChangesTheFingerprint) {
+  HeightFieldDesc desc = smooth_rough_ground().desc();
+  desc.relief.smooth = false;
+  EXPECT_NE(smooth_rough_ground().fingerprint(), make(desc, rough_heights(65, 48, 3)).fingerprint());
 }
 
 TEST(Relief, OffMeansNone) {

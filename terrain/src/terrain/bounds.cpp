@@ -24,6 +24,7 @@
 
 #include "bounds_parallel.h"
 #include "relief.h"
+#include "smoothing.h"
 
 namespace sward {
 
@@ -55,6 +56,23 @@ float float_up(double value) {
 
 }  // namespace
 
+// Samples, padding included; both corners belong to it.
+struct SampleBox {
+  glm::ivec2 first, last;
+  SampleBox grown(int samples, glm::ivec2 size) const {
+    return {glm::max(first - samples, glm::ivec2(0)), glm::min(last + samples, size - 1)};
+  }
+};
+
+namespace {
+
+// The first of begin, begin + stride, .. that is not below `from`.
+int first_from(int from, int begin, int stride) {
+  return from <= begin ? begin : begin + (from - begin + stride - 1) / stride * stride;
+}
+
+}  // namespace
+
 // What the levels' passes share.
 class BoundsBuilder {
  public:
@@ -64,33 +82,37 @@ class BoundsBuilder {
         size_(field.root_squares() * (1 << field.root_bits()) + 1),
         data_(field.desc().columns, field.desc().rows),
         scale_(std::abs(field.desc().scale)),
-        relief_per_share_(field.relief_bound(field.data_level()) / 255.0) {
+        relief_per_share_(field.noise_bound_.front() / 255.0),
+        is_smooth_(!field.relief_curvatures().empty()) {
     if (const auto* words = std::get_if<std::vector<uint16_t>>(&field.samples())) words_ = words->data();
     if (const auto* floats = std::get_if<std::vector<float>>(&field.samples())) floats_ = floats->data();
   }
 
   glm::ivec2 size() const { return size_; }
 
-  // Level 2 (n - i) + 1, rows of multiples of h.
-  void side_row(int row, int h) const {
+  // Level 2 (n - i) + 1, rows of multiples of h, columns of the box.
+  void side_row(int row, int h, const SampleBox& box) const {
     const bool along_row = row / h % 2 == 0;
-    if (h == 1) strongest_row(row);
-    const std::vector<uint8_t>& strongest = strongest_in_row();
+    Columns& relief = columns();
+    if (h == 1) {
+      largest_in_rows(field_.relief_shares(), row - 2, row + 2, box, relief.shares);
+      largest_in_rows(field_.relief_curvatures(), row - 2, row + 1, box, relief.curvatures);
+    }
     const int q = h / 2;
     const std::array<glm::ivec2, 4> corners{{{-q, -q}, {q, -q}, {-q, q}, {q, q}}};
     const glm::ivec2 half = along_row ? glm::ivec2(h, 0) : glm::ivec2(0, h);
-    for (int column = along_row ? h : 0; column < size_.x; column += 2 * h) {
+    for (int column = first_from(box.first.x, along_row ? h : 0, 2 * h); column <= box.last.x; column += 2 * h) {
       const glm::ivec2 centre(column, row);
-      store(centre, half, h == 1 ? relief_below(centre, strongest) : largest(centre, corners));
+      store(centre, half, h == 1 ? relief_below(centre, relief) : largest(centre, corners));
     }
   }
 
   // Level 2 (n - i), rows of odd multiples of h. Root squares are cut from south-west to north-east, smaller ones so
   // that the base joins corners whose indices are both even or both odd.
-  void square_row(int row, int h, bool root) const {
+  void square_row(int row, int h, bool root, const SampleBox& box) const {
     const std::array<glm::ivec2, 4> sides{{{-h, 0}, {h, 0}, {0, -h}, {0, h}}};
-    bool falls_east = row / (2 * h) % 2 == 0;
-    for (int column = h; column < size_.x; column += 2 * h, falls_east = !falls_east) {
+    for (int column = first_from(box.first.x, h, 2 * h); column <= box.last.x; column += 2 * h) {
+      const bool falls_east = (row / (2 * h) + column / (2 * h)) % 2 == 0;
       const glm::ivec2 centre(column, row);
       store(centre, falls_east && !root ? glm::ivec2(h, h) : glm::ivec2(h, -h), largest(centre, sides));
     }
@@ -103,29 +125,48 @@ class BoundsBuilder {
     bool any = false;  // A valid sample or relief.
   };
 
-  // Strongest relief within two samples up and down, by column; filled by strongest_row().
-  static std::vector<uint8_t>& strongest_in_row() {
-    static thread_local std::vector<uint8_t> strongest;
-    return strongest;
+  // Largest noise and curvature in the rows that matter to a row of diamonds, by column; filled by largest_in_rows().
+  struct Columns {
+    std::vector<uint8_t> shares, curvatures;
+  };
+  static Columns& columns() {
+    static thread_local Columns largest;
+    return largest;
   }
 
-  void strongest_row(int row) const {
-    if (relief_per_share_ == 0.0) return;
-    std::vector<uint8_t>& strongest = strongest_in_row();
-    strongest.assign(size_t(data_.x), 0);
-    for (int y = std::max(row - 2, 0); y <= std::min(row + 2, data_.y - 1); ++y) {
-      const uint8_t* shares = field_.relief_shares().data() + size_t(y) * size_t(data_.x);
-      for (size_t x = 0; x < strongest.size(); ++x) strongest[x] = std::max(strongest[x], shares[x]);
+  // Of the rows from `first` to `last`, for columns within two samples of the box.
+  void largest_in_rows(std::span<const uint8_t> table, int first, int last, const SampleBox& box,
+                       std::vector<uint8_t>& out) const {
+    if (table.empty()) return;
+    out.resize(size_t(data_.x));
+    const int begin = std::clamp(box.first.x - 2, 0, data_.x - 1), end = std::min(box.last.x + 2, data_.x - 1);
+    std::fill(out.begin() + begin, out.begin() + end + 1, uint8_t(0));
+    for (int y = std::max(first, 0); y <= std::min(last, data_.y - 1); ++y) {
+      const uint8_t* values = table.data() + size_t(y) * size_t(data_.x);
+      for (int x = begin; x <= end; ++x) out[size_t(x)] = std::max(out[size_t(x)], values[x]);
     }
   }
 
-  // The window of relief_bound(centre, level) for the four diamonds of the data's level, taken together.
-  Below relief_below(glm::ivec2 centre, const std::vector<uint8_t>& strongest) const {
-    if (relief_per_share_ == 0.0) return {};
-    uint8_t share = 0;
-    const int last = std::min(centre.x + 2, data_.x - 1);
-    for (int x = std::max(centre.x - 2, 0); x <= last; ++x) share = std::max(share, strongest[size_t(x)]);
-    return {share * relief_per_share_, share > 0};
+  uint8_t largest_in_columns(const std::vector<uint8_t>& values, int first, int last) const {
+    uint8_t largest = 0;
+    const int end = std::min(last, data_.x - 1);
+    for (int x = std::max(first, 0); x <= end; ++x) largest = std::max(largest, values[size_t(x)]);
+    return largest;
+  }
+
+  // The windows of relief_bound(centre, level) for the four diamonds of the data's level, taken together: samples
+  // within two of the centre, and the cells between them.
+  Below relief_below(glm::ivec2 centre, const Columns& largest) const {
+    Below below;
+    if (relief_per_share_ > 0.0) {
+      below.bound = largest_in_columns(largest.shares, centre.x - 2, centre.x + 2) * relief_per_share_;
+    }
+    if (is_smooth_) {
+      const uint8_t code = largest_in_columns(largest.curvatures, centre.x - 2, centre.x + 1);
+      below.bound += smoothing::decode(code) * smoothing::k_coarse_shares[0];
+    }
+    below.any = below.bound > 0.0;
+    return below;
   }
 
   // Codes rise with what they stand for; one above, k_nothing wraps to 0, below all others.
@@ -169,6 +210,7 @@ class BoundsBuilder {
   glm::ivec2 data_;  // Without.
   double scale_;
   double relief_per_share_;
+  bool is_smooth_;
   const uint16_t* words_ = nullptr;
   const float* floats_ = nullptr;
 };
@@ -183,32 +225,57 @@ void Bounds::adopt_layout(const HeightField& field) {
   stored_.assign(size_t(size.x) * size_t(size.y), k_nothing);
 }
 
+// Level by level, those diamonds that depend on samples in the box: what a diamond reads lies within h of its centre.
+void Bounds::build(const SampleBox& changed, int threads, const Progress& progress) {
+  const BoundsBuilder builder(*field_, *this);
+  const glm::ivec2 size = builder.size();
+  SampleBox box = changed;
+  // A pass over spacing h visits 3 / (4 h^2) of the samples.
+  float done = 0.0f;
+  for (int i = 1; i <= field_->root_bits(); ++i) {
+    const int h = 1 << (i - 1);
+    const float visited = 1.0f / (float(h) * float(h));
+    const auto pass = [&](int begin, int stride, float share, auto&& row) {
+      box = box.grown(h, size);
+      const int first = first_from(box.first.y, begin, stride), rows = (box.last.y - first) / stride + 1;
+      const Progress report = progress && h <= k_coarsest_reported
+                                  ? Progress([&, from = done, share](float part) { progress(from + share * part); })
+                                  : Progress();
+      if (first <= box.last.y) {
+        const int64_t cost = (box.last.x - box.first.x) / h + 1;
+        parallel_rows({rows, cost, threads}, report, [&](int k) { row(first + k * stride); });
+      }
+      done += share;
+    };
+    const bool root = i == field_->root_bits();
+    pass(0, h, 0.5f * visited, [&](int row) { builder.side_row(row, h, box); });
+    pass(h, 2 * h, 0.25f * visited, [&](int row) { builder.square_row(row, h, root, box); });
+  }
+}
+
 Bounds Bounds::create(const HeightField& field, int threads, const Progress& progress) {
   Bounds bounds;
   bounds.adopt_layout(field);
-  const BoundsBuilder builder(field, bounds);
-  const glm::ivec2 size = builder.size();
-  // A pass over spacing h visits 3 / (4 h^2) of the samples.
-  float done = 0.0f;
-  for (int i = 1; i <= field.root_bits(); ++i) {
-    const int h = 1 << (i - 1);
-    const float visited = 1.0f / (float(h) * float(h));
-    const auto report = [&](float from, float share) {
-      return progress && h <= k_coarsest_reported
-                 ? Progress([&, from, share](float part) { progress(from + share * part); })
-                 : Progress();
-    };
-    const int64_t cost = size.x / h;
-    parallel_rows({(size.y + h - 1) / h, cost, threads}, report(done, 0.5f * visited),
-                  [&](int k) { builder.side_row(k * h, h); });
-    done += 0.5f * visited;
-    const bool root = i == field.root_bits();
-    parallel_rows({size.y / (2 * h), cost, threads}, report(done, 0.25f * visited),
-                  [&](int k) { builder.square_row((2 * k + 1) * h, h, root); });
-    done += 0.25f * visited;
-  }
+  bounds.build({glm::ivec2(0), (field.root_squares() << field.root_bits())}, threads, progress);
   if (progress) progress(1.0f);
   return bounds;
+}
+
+void Bounds::recompute(const LatticeBox& changed, int threads) {
+  if (changed.empty()) return;
+  const int step = 1 << step_bits_;
+  const glm::ivec2 end = field_->root_squares() << field_->root_bits();
+  build({glm::max(changed.first, LatticePoint(0)) / step, glm::min((changed.last + (step - 1)) / step, end)}, threads,
+        {});
+}
+
+// By the passes of build(): 1 + 1 + 2 + 2 + .. + h, twice for squares. Below the data by the window of relief_bound().
+LatticeBox Bounds::affected(const LatticeBox& changed, int level) const {
+  if (changed.empty()) return changed;
+  const int side = k_root_side >> (level / 2), step = 1 << step_bits_;
+  const LatticePoint last(field_->root_squares() * k_root_side);
+  const int reach = level >= data_level_ ? 2 * side + step : 2 * side;
+  return {glm::max(changed.first - reach, LatticePoint(0)), glm::min(changed.last + reach, last)};
 }
 
 float Bounds::bound(LatticePoint centre, int level) const {

@@ -15,8 +15,10 @@
 #include <cstring>
 #include <string>
 
+#include "bounds_parallel.h"
 #include "height_field_holes.h"
 #include "relief.h"
+#include "smoothing.h"
 
 namespace sward {
 
@@ -27,8 +29,6 @@ constexpr int k_max_squares = 256;
 constexpr int k_max_root_bits = 17;
 constexpr int k_max_side = 131073;
 constexpr int64_t k_max_samples = int64_t(1) << 31;
-// The bounds' 16-bit format ends at 2^19 m.
-constexpr double k_max_span_m = 262144.0;
 
 std::string size_text(const HeightFieldDesc& desc) {
   return std::to_string(desc.columns) + " x " + std::to_string(desc.rows);
@@ -193,39 +193,95 @@ void HeightField::measure_range() {
 
 void HeightField::set_up_relief() {
   const ReliefOptions& relief = desc_.relief;
-  const int below = levels_below(desc_.spacing, double(relief.finest_edge_m));
-  if (!relief.enabled || below == 0) {
-    relief_bound_.assign(1, 0.0);
-    return;
-  }
+  const int below = relief.enabled ? levels_below(desc_.spacing, double(relief.finest_edge_m)) : 0;
   lattice_.max_level = std::min(data_level() + below, k_max_level);
-  relief_bound_.assign(size_t(max_level() - data_level()) + 1, 0.0);
-  // With no height there is nothing to evaluate.
-  if (relief.roughness == 0.0f) return;
-  octaves_ = (max_level() - data_level()) / 2;
-  first_amplitude_ = double(relief.roughness) * std::sqrt(desc_.spacing.x * desc_.spacing.y);
-  relief_amplitude_ = first_amplitude_ * relief::k_noise_limit * (2.0 - std::ldexp(2.0, -octaves_));
-  relief_bound_ = relief::bound_table(octaves_, max_level() - data_level());
-  for (double& bound : relief_bound_) bound *= first_amplitude_;
-
-  relief_shares_.assign(size_t(desc_.columns) * size_t(desc_.rows), 0);
-  const glm::dvec2 half_run = 0.5 / desc_.spacing * desc_.scale;
-  for (int row = 0; row < desc_.rows; ++row) {
-    const int north = std::max(row - 1, 0), south = std::min(row + 1, desc_.rows - 1);
-    for (int column = 0; column < desc_.columns; ++column) {
-      if (is_hole(column, row)) continue;
-      const int west = std::max(column - 1, 0), east = std::min(column + 1, desc_.columns - 1);
-      const double x = (raw(east, row) - raw(west, row)) * half_run.x * (east - west == 2 ? 1.0 : 2.0);
-      const double y = (raw(column, north) - raw(column, south)) * half_run.y * (south - north == 2 ? 1.0 : 2.0);
-      relief_shares_[size_t(row) * size_t(desc_.columns) + size_t(column)] =
-          relief::share(relief, float(std::sqrt(x * x + y * y)));
-    }
+  const int levels = max_level() - data_level();
+  noise_bound_.assign(size_t(levels) + 1, 0.0);
+  curvature_bound_ = smoothing::bound_table(levels);
+  if (levels == 0) return;
+  const size_t count = size_t(desc_.columns) * size_t(desc_.rows);
+  if (relief.smooth) {
+    coarse_curvatures_.assign(count, 0);
+    fine_curvatures_.assign(count, 0);
   }
+  // With no height there is nothing to evaluate.
+  if (relief.roughness > 0.0f) {
+    octaves_ = levels / 2;
+    first_amplitude_ = double(relief.roughness) * std::sqrt(desc_.spacing.x * desc_.spacing.y);
+    noise_bound_ = relief::bound_table(octaves_, levels);
+    for (double& bound : noise_bound_) bound *= first_amplitude_;
+    relief_shares_.assign(count, 0);
+  }
+  compute_relief(glm::ivec2(0), glm::ivec2(desc_.columns, desc_.rows) - 1);
+}
+
+void HeightField::compute_relief(glm::ivec2 first, glm::ivec2 last) {
+  const glm::ivec2 data(desc_.columns - 1, desc_.rows - 1);
+  first = glm::max(first, glm::ivec2(0));
+  last = glm::min(last, data);
+  const int64_t cost = last.x - first.x + 1;
+  if (!relief_shares_.empty()) {
+    parallel_rows({last.y - first.y + 1, cost, 0}, {}, [&](int k) { compute_shares(first.y + k, first.x, last.x); });
+  }
+  if (!coarse_curvatures_.empty()) {
+    // A cell reads one sample more to the west and north than those at its corners.
+    first = glm::max(first - 1, glm::ivec2(0));
+    last = glm::min(last, data - 1);
+    parallel_rows({last.y - first.y + 1, cost, 0}, {},
+                  [&](int k) { compute_curvatures(first.y + k, first.x, last.x); });
+    const auto largest_of = [&](const std::vector<uint8_t>& table, uint8_t largest) {
+      for (int row = first.y; row <= last.y; ++row) {
+        const auto begin = table.begin() + int64_t(row) * desc_.columns;
+        largest = std::max(largest, *std::max_element(begin + first.x, begin + last.x + 1));
+      }
+      return largest;
+    };
+    largest_coarse_ = largest_of(coarse_curvatures_, largest_coarse_);
+    largest_fine_ = largest_of(fine_curvatures_, largest_fine_);
+  }
+  relief_amplitude_ = first_amplitude_ * relief::k_noise_limit * (2.0 - std::ldexp(2.0, -octaves_)) +
+                      smoothing::decode(largest_coarse_);
+}
+
+void HeightField::compute_shares(int row, int first, int last) {
+  const glm::dvec2 half_run = 0.5 / desc_.spacing * desc_.scale;
+  const int north = std::max(row - 1, 0), south = std::min(row + 1, desc_.rows - 1);
+  for (int column = first; column <= last; ++column) {
+    if (is_hole(column, row)) continue;
+    const int west = std::max(column - 1, 0), east = std::min(column + 1, desc_.columns - 1);
+    const double x = (raw(east, row) - raw(west, row)) * half_run.x * (east - west == 2 ? 1.0 : 2.0);
+    const double y = (raw(column, north) - raw(column, south)) * half_run.y * (south - north == 2 ? 1.0 : 2.0);
+    relief_shares_[size_t(row) * size_t(desc_.columns) + size_t(column)] =
+        relief::share(desc_.relief, float(std::sqrt(x * x + y * y)));
+  }
+}
+
+void HeightField::compute_curvatures(int row, int first, int last) {
+  const double scale = std::abs(desc_.scale);
+  const size_t begin = size_t(row) * size_t(desc_.columns);
+  std::visit(
+      [&](const auto& values) {
+        for (int column = first; column <= last; ++column) {
+          if (hole_count_ > 0 && is_hole(column, row) && is_hole(column + 1, row) && is_hole(column, row + 1) &&
+              is_hole(column + 1, row + 1)) {
+            continue;
+          }
+          const auto patch = smoothing::gather(values.data(), {desc_.columns, desc_.rows}, {column, row});
+          const smoothing::Codes codes =
+              smoothing::curvature_codes(patch, scale, (column + row) % 2 == 0, curvature_bound_);
+          coarse_curvatures_[begin + size_t(column)] = codes.coarse;
+          fine_curvatures_[begin + size_t(column)] = codes.fine;
+        }
+      },
+      samples_);
 }
 
 uint64_t HeightField::fingerprint() const {
   Hash hash;
-  for (const int number : {desc_.columns, desc_.rows, root_bits(), max_level(), octaves_}) hash.add(uint64_t(number));
+  const int smooth = coarse_curvatures_.empty() ? 0 : 1;
+  for (const int number : {desc_.columns, desc_.rows, root_bits(), max_level(), octaves_, smooth}) {
+    hash.add(uint64_t(number));
+  }
   for (const double number : {desc_.spacing.x, desc_.spacing.y, desc_.scale, first_amplitude_}) hash.add(number);
   hash.add(uint64_t(samples_.index()));
   std::visit([&](const auto& values) { hash.add(values.data(), values.size() * sizeof(values[0])); }, samples_);

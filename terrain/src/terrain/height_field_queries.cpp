@@ -15,6 +15,7 @@
 #include <limits>
 
 #include "relief.h"
+#include "smoothing.h"
 
 namespace sward {
 
@@ -119,6 +120,51 @@ double HeightField::linear_height(LatticePoint p) const {
   return interpolate(p, k_root_bits - root_bits(), [this](int column, int row) { return sample(column, row); });
 }
 
+namespace {
+
+// The cell around a point of the data, and the point's place in it.
+struct Place {
+  glm::ivec2 cell;
+  glm::dvec2 uv;
+};
+
+Place place_in_cell(const Lattice& lattice, LatticePoint p) {
+  const int step = lattice.sample_step();
+  const LatticePoint q = glm::clamp(p, LatticePoint(0), lattice.last());
+  const glm::ivec2 cell = glm::min(q / step, glm::ivec2(lattice.columns, lattice.rows) - 2);
+  return {cell, glm::dvec2(q - cell * step) / double(step)};
+}
+
+}  // namespace
+
+double HeightField::smooth_height(LatticePoint p) const {
+  const int mask = sample_step() - 1;
+  if (((p.x | p.y) & mask) == 0) return sample(p.x / sample_step(), p.y / sample_step());
+  const Place place = place_in_cell(lattice_, p);
+  const auto across = smoothing::weights(place.uv.x), along = smoothing::weights(place.uv.y);
+  const double raw_height = std::visit(
+      [&](const auto& values) {
+        const auto patch = smoothing::gather(values.data(), {desc_.columns, desc_.rows}, place.cell);
+        return smoothing::weighted(patch, across, along);
+      },
+      samples_);
+  return raw_height * desc_.scale + (desc_.offset + desc_.origin.z);
+}
+
+// dz/dx, dz/dy.
+glm::dvec2 HeightField::smooth_gradient(LatticePoint p) const {
+  const Place place = place_in_cell(lattice_, p);
+  const glm::dvec2 per_sample = std::visit(
+      [&](const auto& values) {
+        const auto patch = smoothing::gather(values.data(), {desc_.columns, desc_.rows}, place.cell);
+        const auto across = smoothing::weights(place.uv.x), along = smoothing::weights(place.uv.y);
+        return glm::dvec2(smoothing::weighted(patch, smoothing::slope_weights(place.uv.x), along),
+                          smoothing::weighted(patch, across, smoothing::slope_weights(place.uv.y)));
+      },
+      samples_);
+  return desc_.scale * per_sample / glm::dvec2(desc_.spacing.x, -desc_.spacing.y);
+}
+
 double HeightField::relief_share(LatticePoint p) const {
   return interpolate(p, k_root_bits - root_bits(), [this](int column, int row) {
     const int c = std::clamp(column, 0, desc_.columns - 1), r = std::clamp(row, 0, desc_.rows - 1);
@@ -127,7 +173,7 @@ double HeightField::relief_share(LatticePoint p) const {
 }
 
 double HeightField::height(LatticePoint p) const {
-  const double base = linear_height(p);
+  const double base = coarse_curvatures_.empty() ? linear_height(p) : smooth_height(p);
   if (octaves_ == 0) return base;
   const double sum = relief::octave_sum(p, k_root_bits - root_bits(), octaves_, desc_.relief.seed);
   return sum == 0.0 ? base : base + first_amplitude_ * relief_share(p) * sum;
@@ -171,7 +217,9 @@ glm::dvec2 HeightField::data_gradient(glm::dvec2 xy) const {
 }
 
 glm::dvec2 HeightField::relief_gradient(LatticePoint p) const {
-  if (octaves_ == 0) return glm::dvec2(0.0);
+  const glm::dvec2 smooth =
+      coarse_curvatures_.empty() ? glm::dvec2(0.0) : smooth_gradient(p) - data_gradient(world_xy(p));
+  if (octaves_ == 0) return smooth;
   const int step_bits = k_root_bits - root_bits();
   const glm::dvec3 sum = relief::octave_sum_with_gradient(p, step_bits, octaves_, desc_.relief.seed);
   // The strength has a kink at the edges of the data's triangles: there this is the mean of both sides.
@@ -180,25 +228,33 @@ glm::dvec2 HeightField::relief_gradient(LatticePoint p) const {
   const glm::dvec2 share_change(relief_share(p + east) - relief_share(p - east),
                                 relief_share(p + south) - relief_share(p - south));
   const glm::dvec2 per_spacing = relief_share(p) * glm::dvec2(sum) + sum.z * to_spacing * share_change;
-  return first_amplitude_ * per_spacing / glm::dvec2(desc_.spacing.x, -desc_.spacing.y);
+  return smooth + first_amplitude_ * per_spacing / glm::dvec2(desc_.spacing.x, -desc_.spacing.y);
 }
 
 double HeightField::relief_bound(int level) const {
-  const int below = std::max(level, data_level()) - data_level();
-  return level >= max_level() ? 0.0 : relief_bound_[size_t(below)];
+  if (level >= max_level()) return 0.0;
+  const auto below = size_t(std::max(level, data_level()) - data_level());
+  return noise_bound_[below] + smoothing::bound({largest_coarse_, largest_fine_}, below, curvature_bound_);
 }
 
 double HeightField::relief_bound(LatticePoint centre, int level) const {
-  if (octaves_ == 0 || level >= max_level()) return 0.0;
+  if (level >= max_level()) return 0.0;
   const relief::Window window = relief::bound_window(*this, centre, level);
-  uint8_t strongest = 0;
-  for (int row = window.first.y; row <= window.last.y; ++row) {
-    const uint8_t* shares = relief_shares_.data() + size_t(row) * size_t(desc_.columns);
-    for (int column = window.first.x; column <= window.last.x; ++column) {
-      strongest = std::max(strongest, shares[column]);
+  const auto largest_in = [&](const std::vector<uint8_t>& table, glm::ivec2 last) {
+    uint8_t largest = 0;
+    if (table.empty()) return largest;
+    for (int row = window.first.y; row <= last.y; ++row) {
+      const uint8_t* values = table.data() + size_t(row) * size_t(desc_.columns);
+      for (int column = window.first.x; column <= last.x; ++column) largest = std::max(largest, values[column]);
     }
-  }
-  return strongest / 255.0 * relief_bound(level);
+    return largest;
+  };
+  const auto below = size_t(level - data_level());
+  // The last samples' cells lie beyond the window.
+  const bool coarse = below < smoothing::k_tried_levels;
+  const uint8_t largest = largest_in(coarse ? coarse_curvatures_ : fine_curvatures_, window.last - 1);
+  return largest_in(relief_shares_, window.last) / 255.0 * noise_bound_[below] +
+         smoothing::bound({largest, largest}, below, curvature_bound_);
 }
 
 }  // namespace sward

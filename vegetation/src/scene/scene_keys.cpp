@@ -183,13 +183,14 @@ Expected<void> check_scene(const toml::table& table, const Scene&, const Context
 
 const Schema<ReliefOptions>& relief_schema() {
   using R = ReliefOptions;
-  static const Schema<R> schema{"[terrain.relief]",
-                                {flag("enabled", &R::enabled), number("roughness", &R::roughness, within(0, 0.5)),
-                                 number("flat_share", &R::flat_share, within(0, 1)),
-                                 number("full_slope", &R::full_slope, above(0), "rise over run"),
-                                 number("finest_edge_m", &R::finest_edge_m, within(0.1, 100), "metres"),
-                                 whole_number("seed", &R::seed, within(0, k_most_uint32))},
-                                {}};
+  static const Schema<R> schema{
+      "[terrain.relief]",
+      {flag("enabled", &R::enabled), flag("smooth", &R::smooth), number("roughness", &R::roughness, within(0, 0.5)),
+       number("flat_share", &R::flat_share, within(0, 1)),
+       number("full_slope", &R::full_slope, above(0), "rise over run"),
+       number("finest_edge_m", &R::finest_edge_m, within(0.1, 100), "metres"),
+       whole_number("seed", &R::seed, within(0, k_most_uint32))},
+      {}};
   return schema;
 }
 

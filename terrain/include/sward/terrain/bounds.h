@@ -21,6 +21,12 @@ class Bounds {
   /// Cost: some 20 ns a sample a core. The field must outlive the bounds.
   static Bounds create(const HeightField& field, int threads = 0, const Progress& progress = {});
 
+  /// Re-computes what depends on heights and relief of the box, which the field has changed (edits.h calls this): the
+  /// result is that of create(). Needs the bounds and the field for itself. Cost: some 100 ns a sample of the box.
+  void recompute(const LatticeBox& changed, int threads = 0);
+  /// Box of the centres of those diamonds of a level whose bound may change when heights and relief in `changed` do.
+  LatticeBox affected(const LatticeBox& changed, int level) const;
+
   /// Writes the bounds to a file that load() reads: to a temporary beside it, renamed when complete.
   Expected<void> save(const std::string& path) const;
   /// Reads bounds that were saved for the same field. Fails, naming the file and what to do, when it is missing,
@@ -41,6 +47,7 @@ class Bounds {
  private:
   friend class BoundsBuilder;
   void adopt_layout(const HeightField& field);
+  void build(const struct SampleBox& changed, int threads, const Progress& progress);
   // Stored value of a diamond below which no sample is valid.
   static constexpr uint16_t k_nothing = 0xffff;
 

@@ -12,11 +12,15 @@
 
 namespace sward {
 
-/// Relief below the data: deterministic gradient noise in octaves whose lattices contain the data's own samples, where
-/// it is zero. Part of the height function: mesh, bounds, queries and plants agree on it.
+/// Relief below the data: a smooth surface through the samples, and deterministic gradient noise in octaves whose
+/// lattices contain the samples, where it is zero. Part of the height function: mesh, bounds, queries and plants agree
+/// on it.
 struct ReliefOptions {
   bool enabled = true;
-  /// Height of an octave against its wavelength, on steep ground. Range 0..0.5.
+  /// Bicubic between samples, through them and with central differences for slopes; else flat triangles, whose edges
+  /// show on horizons. Adds to bounds by the curvature of the samples around.
+  bool smooth = true;
+  /// Height of a noise octave against its wavelength, on steep ground. Range 0..0.5.
   float roughness = 0.035f;
   /// Share of that left on flat ground. Range 0..1.
   float flat_share = 0.25f;
@@ -37,14 +41,15 @@ struct HeightFieldDesc {
   ReliefOptions relief;
 };
 
-/// Immutable heights over root squares side by side. Sample (column, row), row 0 the northern edge, stands at
+/// Heights over root squares side by side. Sample (column, row), row 0 the northern edge, stands at
 /// x = origin.x + (column - (columns-1)/2) dx, y = origin.y + ((rows-1)/2 - row) dy.
 ///
 /// The bintree covers whole root squares of 2^n + 1 samples: among the sizes that need at most 256 squares (the root
 /// mesh costs two triangles of every frame's budget a square), the one that pads least, the larger at a tie. What lies
 /// beyond the data is padding: it repeats the edge and is never drawn, seeded or counted in bounds.
 ///
-/// All calls are const and safe from several threads.
+/// Const calls are safe from several threads. Only edit() (edits.h) changes a field, in place; while it runs nothing
+/// else may use the field: no query, no mesh update.
 class HeightField {
  public:
   using Samples = std::variant<std::vector<uint16_t>, std::vector<float>>;
@@ -68,6 +73,7 @@ class HeightField {
   /// Number of samples that were holes.
   int64_t hole_count() const { return hole_count_; }
   /// Lowest and highest sample, metres, world (origin.z included); relief reaches up to relief_amplitude() beyond.
+  /// Edits widen both, and do not narrow them.
   glm::dvec2 height_range() const { return height_range_; }
   double relief_amplitude() const { return relief_amplitude_; }
   /// Western/southern and eastern/northern corner of the data, world.
@@ -91,28 +97,44 @@ class HeightField {
   /// Slope of the samples (dz/dx, dz/dy; no relief), bilinear between central differences: static data for densities
   /// and for shading far away. Clamped to the edge outside.
   glm::dvec2 data_gradient(glm::dvec2 xy) const;
-  /// Gradient of the relief alone at a lattice point (dz/dx, dz/dy), for shading.
+  /// What the relief adds to data_gradient() at a lattice point (dz/dx, dz/dy), for shading.
   glm::dvec2 relief_gradient(LatticePoint p) const;
   /// Upper bound of |z(m) - (z(l)+z(r))/2| that the relief adds at splits of triangles of `level` and below, summed
   /// over all levels from `level` to max_level(); 0 at max_level(). Analytic; see relief.cpp.
   double relief_bound(int level) const;
-  /// The same for one diamond, by the lattice point that its split creates and its level (>= data_level()): scaled by
-  /// the strength of the relief around it, so that no descendant's bound is above its ancestor's. 0 in the padding and
-  /// in holes.
+  /// The same for one diamond, by the lattice point that its split creates and its level (>= data_level()), from the
+  /// strength of the noise and the curvature of the samples around it, so that no descendant's bound is above its
+  /// ancestor's. 0 in the padding and in holes.
   double relief_bound(LatticePoint centre, int level) const;
-  /// Local strength of the relief by sample, 255: full; 0 in holes. Empty without relief.
+  /// Local strength of the noise by sample, 255: full; 0 in holes. Empty without noise.
   std::span<const uint8_t> relief_shares() const { return relief_shares_; }
+  /// What the smooth surface adds to bounds by cell (at its north-western sample), coded; rises with it. 0 where a
+  /// cell's corners are all holes and in the last column and row. Empty where the surface is not smooth.
+  std::span<const uint8_t> relief_curvatures() const { return coarse_curvatures_; }
 
   /// Hash of all that bounds depend on: sizes, spacing, scale, samples, holes, relief. Cost: 1 ns a sample.
   uint64_t fingerprint() const;
 
  private:
+  friend class FieldEditor;
+  friend class BoundsBuilder;
+  // The bounds' 16-bit format ends at 2^19 m.
+  static constexpr double k_max_span_m = 262144.0;
+  // Relief at a sample depends on samples up to so many columns and rows from it.
+  static constexpr int k_relief_reach = 1;
+
   double raw(int column, int row) const;
   double linear_height(LatticePoint p) const;
+  double smooth_height(LatticePoint p) const;
+  glm::dvec2 smooth_gradient(LatticePoint p) const;
   double relief_share(LatticePoint p) const;
   Expected<void> adopt(Samples samples, std::span<const uint8_t> holes);
   void measure_range();
   void set_up_relief();
+  // The relief's tables for samples from `first` to `last`, cut to the data.
+  void compute_relief(glm::ivec2 first, glm::ivec2 last);
+  void compute_shares(int row, int first, int last);
+  void compute_curvatures(int row, int first, int last);
 
   HeightFieldDesc desc_;
   Samples samples_;
@@ -123,8 +145,12 @@ class HeightField {
   double relief_amplitude_ = 0;
   int octaves_ = 0;                     // of relief; 0: none
   double first_amplitude_ = 0;          // metres, of octave 0; halves with each octave
-  std::vector<uint8_t> relief_shares_;  // by sample; empty without relief
-  std::vector<double> relief_bound_;    // by level, from data_level() to max_level()
+  std::vector<uint8_t> relief_shares_;  // by sample; empty without noise
+  // By cell, as smoothing.h says; empty where the surface is not smooth.
+  std::vector<uint8_t> coarse_curvatures_, fine_curvatures_;
+  uint8_t largest_coarse_ = 0, largest_fine_ = 0;
+  // By level, from data_level() to max_level(): of noise at full strength, and of a curvature of 1.
+  std::vector<double> noise_bound_, curvature_bound_;
 };
 
 }  // namespace sward

@@ -8,8 +8,10 @@
 ///   -> visible_indices() for a renderer, fixed_level_triangles() for vegetation.
 #include <sward/terrain/bounds.h>
 #include <sward/terrain/color_map.h>
+#include <sward/terrain/edits.h>
 #include <sward/terrain/error.h>
 #include <sward/terrain/fixed_triangles.h>
 #include <sward/terrain/height_field.h>
+#include <sward/terrain/queries.h>
 #include <sward/terrain/roam_mesh.h>
 #include <sward/terrain/view.h>
