@@ -33,10 +33,85 @@ TriangleCorners corners_of(TriangleId id) {
   return c;
 }
 
+void FixedTriangles::Columns::resize(size_t count) {
+  apex.resize(count);
+  to_left.resize(count);
+  to_right.resize(count);
+  id.resize(count);
+  surface.resize(count);
+  area.resize(count);
+  screen_area.resize(count);
+  distance.resize(count);
+}
+
+FixedTriangles::FixedTriangles() : nodes_(1) {}
+
+FixedTriangles::FixedTriangles(const FixedTriangles& other)
+    : columns_(other.columns_), nodes_(other.nodes_), surface_z_(other.surface_z_) {}
+
+FixedTriangles& FixedTriangles::operator=(const FixedTriangles& other) {
+  columns_ = other.columns_;
+  nodes_ = other.nodes_;
+  surface_z_ = other.surface_z_;
+  ++contents_;
+  return *this;
+}
+
+FixedTriangles::FixedTriangles(FixedTriangles&&) noexcept = default;
+FixedTriangles& FixedTriangles::operator=(FixedTriangles&&) noexcept = default;
+FixedTriangles::~FixedTriangles() = default;
+
+FixedTriangle FixedTriangles::operator[](size_t i) const {
+  SWARD_ASSERT(i < size(), "no such triangle");
+  const Columns& c = columns_;
+  return {c.apex[i], c.to_left[i], c.to_right[i],    c.id[i],
+          c.surface[i], c.area[i], c.screen_area[i], c.distance[i]};
+}
+
+void FixedTriangles::push_back(const FixedTriangle& triangle) {
+  columns_.resize(size() + 1);
+  set(size() - 1, triangle);
+}
+
+void FixedTriangles::set(size_t i, const FixedTriangle& triangle) {
+  SWARD_ASSERT(i < size(), "no such triangle");
+  columns_.apex[i] = triangle.apex;
+  columns_.to_left[i] = triangle.to_left;
+  columns_.to_right[i] = triangle.to_right;
+  columns_.id[i] = triangle.id;
+  columns_.surface[i] = triangle.surface;
+  columns_.area[i] = triangle.area;
+  columns_.screen_area[i] = triangle.screen_area;
+  columns_.distance[i] = triangle.distance;
+  ++contents_;
+}
+
+uint32_t FixedTriangles::add_node(const SurfaceNode& node) {
+  nodes_.push_back(node);
+  ++contents_;
+  return uint32_t(nodes_.size() - 1);
+}
+
+void FixedTriangles::set_surface_z(double z) {
+  surface_z_ = z;
+  ++contents_;
+}
+
 void FixedTriangles::clear() {
-  triangles.clear();
-  surface.assign(1, SurfaceNode{});
-  surface_z = 0;
+  columns_.resize(0);
+  nodes_.assign(1, SurfaceNode{});
+  surface_z_ = 0;
+  ++contents_;
+}
+
+FixedTriangles::Writer FixedTriangles::write(size_t triangles, size_t nodes) {
+  SWARD_ASSERT(nodes >= 1, "the placeholder is a node");
+  columns_.resize(triangles);
+  nodes_.resize(nodes);
+  nodes_[0] = {};
+  ++contents_;
+  Columns& c = columns_;
+  return {c.apex, c.to_left, c.to_right, c.id, c.surface, c.area, c.screen_area, c.distance, nodes_};
 }
 
 int level_for_area(const HeightField& field, double area_m2) {

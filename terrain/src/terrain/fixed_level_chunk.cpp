@@ -1,0 +1,185 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+// What a chunk is built from is compared with the mesh at every visit, instead of being told of changes: the chunk's
+// corners, and, where the mesh is finer, every split below it. That costs about as much as copying the result, and no
+// missed frame, restart or edit can leave a chunk stale.
+#include "fixed_level_chunk.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sward::roam {
+
+namespace {
+
+struct Place {
+  LatticePoint lattice;
+  glm::dvec3 world;
+};
+
+struct PlacedTriangle {
+  Place apex, left, right;
+  TriangleCorners corners() const { return {apex.lattice, left.lattice, right.lattice}; }
+  PlacedTriangle child(unsigned turn, const Place& m) const {
+    return turn == 0 ? PlacedTriangle{m, apex, left} : PlacedTriangle{m, right, apex};
+  }
+};
+
+Place place_of(const DrawnCorner& corner) {
+  return {corner.lattice, corner.world};
+}
+
+PlacedTriangle placed(const ChunkVisit& visit) {
+  return {place_of(visit.triangle.apex), place_of(visit.triangle.left), place_of(visit.triangle.right)};
+}
+
+Place middle(const Lattice& lattice, const Place& a, const Place& b) {
+  const LatticePoint m = a.lattice + (b.lattice - a.lattice) / 2;
+  return {m, glm::dvec3(lattice.world_xy(m), 0.5 * (a.world.z + b.world.z))};
+}
+
+LatticeBox box_of(const TriangleCorners& c) {
+  return {glm::min(c.apex, glm::min(c.left, c.right)), glm::max(c.apex, glm::max(c.left, c.right))};
+}
+
+class StaticBuilder {
+ public:
+  StaticBuilder(const FixedLevelWalk& walk, Chunk& chunk)
+      : surface_(walk.tree().surface()), lattice_(walk.tree().lattice()), chunk_(chunk) {
+    const double cells = double(int64_t(1) << lattice_.root_bits);
+    level_area_ = std::ldexp(0.5 * cells * cells * lattice_.spacing.x * lattice_.spacing.y, -walk.options().level);
+  }
+
+  void descend(const TriangleCorners& c, Cover cover, int depth, unsigned index) {
+    if (depth == 0) return put(c, cover, index);
+    for (unsigned turn = 0; turn < 2; ++turn) {
+      const TriangleCorners child = child_corners(c, int(turn));
+      descend(child, cover_of(lattice_, child, cover), depth - 1, 2 * index + turn);
+    }
+  }
+
+ private:
+  void put(const TriangleCorners& c, Cover cover, unsigned index) {
+    if (cover == Cover::padding || surface_.all_holes(box_of(c))) return;
+    const glm::dvec2 a = lattice_.world_xy(c.apex), b = lattice_.world_xy(c.left), d = lattice_.world_xy(c.right);
+    const glm::dvec2 gradient = surface_.data_gradient((a + b + d) / 3.0);
+    chunk_.area[index] = float(level_area_ * std::sqrt(1.0 + glm::dot(gradient, gradient)));
+    chunk_.solid |= uint64_t(1) << index;
+  }
+
+  const Surface& surface_;
+  const Lattice& lattice_;
+  Chunk& chunk_;
+  double level_area_ = 0;  // horizontal, square metres
+};
+
+class DrawnBuilder {
+ public:
+  DrawnBuilder(const RoamTree& tree, Chunk& chunk, double base_z) : tree_(tree), chunk_(chunk), base_z_(base_z) {}
+
+  void descend(uint32_t node, const PlacedTriangle& t, int depth, unsigned index) {
+    const bool split = node != k_none && tree_.is_split(node);
+    if (depth == 0) return put(split ? node : k_none, t, index);
+    Place m;
+    if (split) {
+      const uint32_t vertex = tree_.corner[tree_.child[node]].apex;
+      m = {tree_.vertices.lattice[vertex], drawn_position(tree_, vertex)};
+    } else {
+      m = middle(tree_.lattice(), t.left, t.right);
+    }
+    for (unsigned turn = 0; turn < 2; ++turn) {
+      descend(split ? tree_.child[node] + turn : k_none, t.child(turn, m), depth - 1, 2 * index + turn);
+    }
+  }
+
+ private:
+  void put(uint32_t split_node, const PlacedTriangle& t, unsigned j) {
+    const glm::vec3 left(t.left.world - t.apex.world), right(t.right.world - t.apex.world);
+    chunk_.apex[j] = t.apex.world;
+    chunk_.to_left[j] = left;
+    chunk_.to_right[j] = right;
+    chunk_.apex_z[j] = float(t.apex.world.z - base_z_);
+    chunk_.left_z[j] = left.z;
+    chunk_.right_z[j] = right.z;
+    const float legs = std::min(std::hypot(left.x, left.y), std::hypot(right.x, right.y));
+    chunk_.steepness = std::max(chunk_.steepness, (std::abs(left.z) + std::abs(right.z)) / legs);
+    chunk_.bound[j] = split_node == k_none ? 0.0f : tree_.corner[split_node].bound;
+    first_ = chunk_.first_node[j] = uint32_t(chunk_.nodes.size());
+    if (split_node != k_none) refine(split_node);
+    chunk_.node_count[j] = uint32_t(chunk_.nodes.size()) - first_;
+  }
+
+  uint32_t refine(uint32_t node) {
+    const auto index = uint32_t(chunk_.nodes.size());
+    const uint32_t first = tree_.child[node];
+    chunk_.nodes.push_back({drawn_position(tree_, tree_.corner[first].apex).z, {0, 0}});
+    for (uint32_t turn = 0; turn < 2; ++turn) {
+      if (!tree_.is_split(first + turn)) continue;
+      const uint32_t below = refine(first + turn);
+      chunk_.nodes[index].child[turn] = below - first_;
+    }
+    return index;
+  }
+
+  const RoamTree& tree_;
+  Chunk& chunk_;
+  double base_z_;
+  uint32_t first_ = 0;
+};
+
+SplitMark mark_of(const RoamTree& tree, uint32_t node, int depth) {
+  const uint32_t first = tree.child[node];
+  return {drawn_position(tree, tree.corner[first].apex).z, depth == 0 ? tree.corner[node].bound : 0.0f,
+          uint32_t(tree.is_split(first)) | uint32_t(tree.is_split(first + 1)) << 1};
+}
+
+// In the same order as same_marks().
+void record_marks(const RoamTree& tree, uint32_t node, int depth, std::vector<SplitMark>& marks) {
+  const SplitMark mark = mark_of(tree, node, depth);
+  marks.push_back(mark);
+  for (uint32_t turn = 0; turn < 2; ++turn)
+    if (mark.children_split >> turn & 1) record_marks(tree, tree.child[node] + turn, depth - 1, marks);
+}
+
+bool same_marks(const RoamTree& tree, uint32_t node, int depth, const SplitMark*& mark) {
+  const SplitMark now = mark_of(tree, node, depth);
+  if (!(now == *mark++)) return false;
+  for (uint32_t turn = 0; turn < 2; ++turn)
+    if (now.children_split >> turn & 1 && !same_marks(tree, tree.child[node] + turn, depth - 1, mark)) return false;
+  return true;
+}
+
+bool up_to_date(const RoamTree& tree, const ChunkVisit& visit, int depth, const Chunk& chunk, glm::dvec3 corner_z) {
+  if (!chunk.has_drawn || chunk.flat != (visit.node == k_none) || chunk.corner_z != corner_z) return false;
+  const SplitMark* mark = chunk.marks.data();
+  return chunk.flat || same_marks(tree, visit.node, depth, mark);
+}
+
+}  // namespace
+
+void build_static(const FixedLevelWalk& walk, const ChunkVisit& visit, int depth, Chunk& chunk) {
+  const PlacedTriangle t = placed(visit);
+  chunk.solid = 0;
+  chunk.box = box_of(t.corners());
+  chunk.area = {};
+  StaticBuilder(walk, chunk).descend(t.corners(), visit.triangle.cover, depth, 0);
+  chunk.has_static = true;
+}
+
+bool refresh_drawn(const RoamTree& tree, const ChunkVisit& visit, int depth, Chunk& chunk) {
+  const PlacedTriangle t = placed(visit);
+  const glm::dvec3 corner_z(t.apex.world.z, t.left.world.z, t.right.world.z);
+  if (up_to_date(tree, visit, depth, chunk, corner_z)) return false;
+  chunk.corner_z = corner_z;
+  chunk.flat = visit.node == k_none;
+  chunk.steepness = 0;
+  chunk.nodes.clear();
+  chunk.marks.clear();
+  DrawnBuilder(tree, chunk, t.apex.world.z).descend(visit.node, t, depth, 0);
+  if (!chunk.flat) record_marks(tree, visit.node, depth, chunk.marks);
+  chunk.has_drawn = true;
+  return true;
+}
+
+}  // namespace sward::roam
