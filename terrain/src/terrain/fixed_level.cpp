@@ -11,6 +11,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <optional>
 #include <thread>
@@ -53,9 +54,22 @@ void pack(const std::array<T, k_chunk_size>& from, uint64_t mask, T* to) {
   }
 }
 
+// The next chunk's data are fetched while one is worked on: between frames they leave the fast caches.
+void prefetch(const Chunk& chunk) {
+  const char* const begin = reinterpret_cast<const char*>(&chunk);
+  const size_t size = chunk.flat ? offsetof(Chunk, bound) : sizeof(Chunk);
+  for (size_t at = 0; at < size; at += 64) __builtin_prefetch(begin + at);
+}
+
 // Where a chunk's share of the output begins.
 struct Offset {
   size_t triangle = 0, node = 1;
+};
+
+struct KeptChunk {
+  uint64_t key;
+  uint64_t seen;  // the frame that visited it last
+  Chunk* chunk;
 };
 
 class Memory final : public FixedTrianglesMemory {
@@ -66,13 +80,14 @@ class Memory final : public FixedTrianglesMemory {
  private:
   void forget_changed(const SurfaceState& surface, int level);
   bool match_chunks();
-  Chunk* acquire(uint64_t key);
-  void keep_or_release(Chunk* chunk);
+  Chunk* acquire();
+  void keep_or_release(const KeptChunk& kept);
   bool refresh(const FixedLevelWalk& walk, size_t i);
-  void evaluate(const ChunkKernel& kernel, size_t i) { kernel.evaluate(visits_[i], depth_, *chunks_[i]); }
-  void write(FixedTriangles& out, double surface_z);
-  void write_chunk(size_t i, double surface_z, const FixedTriangles::Writer& to) const;
-  void write_nodes(const Chunk& chunk, Offset at, double surface_z, const FixedTriangles::Writer& to) const;
+  void write_in_order(const ChunkKernel& kernel, FixedTriangles& out);
+  void write_side_by_side(const ChunkKernel& kernel, FixedTriangles& out);
+  void write_chunk(size_t i, const ChunkResult& result, Offset at, const FixedTriangles::Writer& to) const;
+  void write_nodes(const Chunk& chunk, const ChunkResult& result, Offset at, const FixedTriangles::Writer& to) const;
+  Offset share(const Chunk& chunk, const ChunkResult& result) const;
   int parts() const;
   template <class Work>
   void for_chunks(Work&& work);
@@ -85,12 +100,14 @@ class Memory final : public FixedTrianglesMemory {
 
   std::vector<ChunkVisit> visits_;
   std::vector<Chunk*> chunks_;  // of the visits
+  std::vector<ChunkResult> results_;  // of the visits, where several threads work
   std::vector<Offset> offsets_;
   int depth_ = 0;
+  double surface_z_ = 0;
 
   uint64_t frame_ = 1;
   std::vector<std::unique_ptr<Chunk>> storage_;
-  std::vector<Chunk*> kept_, merged_;  // by key
+  std::vector<KeptChunk> kept_, merged_;  // by key
   std::vector<Chunk*> free_;
   WorkerPool pool_;
 };
@@ -106,15 +123,19 @@ void Memory::collect(const RoamTree& tree, const View& view, const FixedLevelOpt
   walk.run(options.level - depth_, visits_);
   const bool same_chunks = match_chunks();
   const bool still = holds_this_view && same_chunks;
-  const ChunkKernel kernel(walk);
   std::atomic<bool> changed = false;
   for_chunks([&](size_t i) {
     if (refresh(walk, i)) changed.store(true, std::memory_order_relaxed);
-    if (!still) evaluate(kernel, i);
   });
   if (still && !changed) return;
-  if (still) for_chunks([&](size_t i) { evaluate(kernel, i); });
-  write(out, std::round(view.eye.z));
+  const ChunkKernel kernel(walk);
+  surface_z_ = std::round(view.eye.z);
+  out.set_surface_z(surface_z_);
+  if (parts() == 1) {
+    write_in_order(kernel, out);
+  } else {
+    write_side_by_side(kernel, out);
+  }
   contents_ = out.contents();
 }
 
@@ -122,8 +143,8 @@ void Memory::forget_changed(const SurfaceState& surface, int level) {
   const bool known = surface.epoch != 0 && surface_.epoch != 0 && level == options_.level;
   if (known && surface.epoch == surface_.epoch) return;
   const bool local = known && surface.epoch == surface_.epoch + 1;
-  for (Chunk* chunk : kept_)
-    if (!local || meet(chunk->box, surface.changed)) chunk->has_static = chunk->has_drawn = false;
+  for (const KeptChunk& kept : kept_)
+    if (!local || meet(kept.chunk->box, surface.changed)) kept.chunk->has_static = kept.chunk->has_drawn = false;
   surface_ = surface;
 }
 
@@ -136,34 +157,36 @@ bool Memory::match_chunks() {
   merged_.clear();
   size_t next = 0;
   for (const ChunkVisit& visit : visits_) {
-    while (next < kept_.size() && kept_[next]->key < visit.key) keep_or_release(kept_[next++]);
-    const bool found = next < kept_.size() && kept_[next]->key == visit.key;
-    Chunk* chunk = found ? kept_[next++] : acquire(visit.key);
-    same_as_before &= chunk->seen + 1 == frame_;
-    chunk->seen = frame_;
+    while (next < kept_.size() && kept_[next].key < visit.key) keep_or_release(kept_[next++]);
+    const bool found = next < kept_.size() && kept_[next].key == visit.key;
+    same_as_before &= found && kept_[next].seen + 1 == frame_;
+    Chunk* const chunk = found ? kept_[next++].chunk : acquire();
+    __builtin_prefetch(chunk);
     chunks_.push_back(chunk);
-    merged_.push_back(chunk);
+    merged_.push_back({visit.key, frame_, chunk});
   }
   while (next < kept_.size()) keep_or_release(kept_[next++]);
   kept_.swap(merged_);
   return same_as_before;
 }
 
-Chunk* Memory::acquire(uint64_t key) {
+Chunk* Memory::acquire() {
   if (free_.empty()) {
     storage_.push_back(std::make_unique<Chunk>());
     free_.push_back(storage_.back().get());
   }
   Chunk* chunk = free_.back();
   free_.pop_back();
-  chunk->key = key;
-  chunk->seen = 0;
   chunk->has_static = chunk->has_drawn = false;
   return chunk;
 }
 
-void Memory::keep_or_release(Chunk* chunk) {
-  (chunk->seen + k_frames_kept >= frame_ ? merged_ : free_).push_back(chunk);
+void Memory::keep_or_release(const KeptChunk& kept) {
+  if (kept.seen + k_frames_kept >= frame_) {
+    merged_.push_back(kept);
+  } else {
+    free_.push_back(kept.chunk);
+  }
 }
 
 bool Memory::refresh(const FixedLevelWalk& walk, size_t i) {
@@ -188,52 +211,78 @@ void Memory::for_chunks(Work&& work) {
   });
 }
 
-void Memory::write(FixedTriangles& out, double surface_z) {
-  offsets_.clear();
-  Offset next;
-  for (const Chunk* chunk : chunks_) {
-    offsets_.push_back(next);
-    next.triangle += size_t(std::popcount(chunk->visible));
-    if (chunk->nodes.empty()) continue;
-    for (uint64_t rest = chunk->visible; rest != 0; rest &= rest - 1)
-      next.node += chunk->node_count[size_t(std::countr_zero(rest))];
-  }
-  out.set_surface_z(surface_z);
-  const FixedTriangles::Writer to = out.write(next.triangle, next.node);
-  for_chunks([&](size_t i) { write_chunk(i, surface_z, to); });
+// What a chunk adds to the output.
+Offset Memory::share(const Chunk& chunk, const ChunkResult& result) const {
+  Offset share{size_t(std::popcount(result.visible)), 0};
+  if (chunk.nodes.empty()) return share;
+  for (uint64_t rest = result.visible; rest != 0; rest &= rest - 1)
+    share.node += chunk.node_count[size_t(std::countr_zero(rest))];
+  return share;
 }
 
-void Memory::write_chunk(size_t i, double surface_z, const FixedTriangles::Writer& to) const {
+// One thread: each chunk is written as soon as it is measured, into room for all of them.
+void Memory::write_in_order(const ChunkKernel& kernel, FixedTriangles& out) {
+  size_t most_nodes = 1;
+  for (const Chunk* chunk : chunks_) most_nodes += chunk->nodes.size();
+  const FixedTriangles::Writer to = out.write(chunks_.size() * k_chunk_size, most_nodes);
+  Offset next;
+  ChunkResult result;
+  for (size_t i = 0; i < chunks_.size(); ++i) {
+    if (i + 1 < chunks_.size()) prefetch(*chunks_[i + 1]);
+    kernel.evaluate(visits_[i], depth_, *chunks_[i], result);
+    write_chunk(i, result, next, to);
+    const Offset own = share(*chunks_[i], result);
+    next = {next.triangle + own.triangle, next.node + own.node};
+  }
+  out.write(next.triangle, next.node);
+}
+
+// Several threads: all chunks are measured, then their places are known.
+void Memory::write_side_by_side(const ChunkKernel& kernel, FixedTriangles& out) {
+  if (results_.size() < chunks_.size()) results_.resize(chunks_.size() + chunks_.size() / 2);
+  for_chunks([&](size_t i) { kernel.evaluate(visits_[i], depth_, *chunks_[i], results_[i]); });
+  offsets_.clear();
+  Offset next;
+  for (size_t i = 0; i < chunks_.size(); ++i) {
+    offsets_.push_back(next);
+    const Offset own = share(*chunks_[i], results_[i]);
+    next = {next.triangle + own.triangle, next.node + own.node};
+  }
+  const FixedTriangles::Writer to = out.write(next.triangle, next.node);
+  for_chunks([&](size_t i) { write_chunk(i, results_[i], offsets_[i], to); });
+}
+
+void Memory::write_chunk(size_t i, const ChunkResult& result, Offset at, const FixedTriangles::Writer& to) const {
+  if (result.visible == 0) return;
   const Chunk& chunk = *chunks_[i];
-  if (chunk.visible == 0) return;
-  const Offset at = offsets_[i];
-  pack(chunk.apex, chunk.visible, &to.apex[at.triangle]);
-  pack(chunk.to_left, chunk.visible, &to.to_left[at.triangle]);
-  pack(chunk.to_right, chunk.visible, &to.to_right[at.triangle]);
-  pack(chunk.area, chunk.visible, &to.area[at.triangle]);
-  pack(chunk.screen_area, chunk.visible, &to.screen_area[at.triangle]);
-  pack(chunk.distance, chunk.visible, &to.distance[at.triangle]);
+  pack(chunk.apex, result.visible, &to.apex[at.triangle]);
+  pack(chunk.to_left, result.visible, &to.to_left[at.triangle]);
+  pack(chunk.to_right, result.visible, &to.to_right[at.triangle]);
+  pack(chunk.area, result.visible, &to.area[at.triangle]);
+  pack(result.screen_area, result.visible, &to.screen_area[at.triangle]);
+  pack(result.distance, result.visible, &to.distance[at.triangle]);
   const uint64_t first = visits_[i].triangle.id.bits + (uint64_t(depth_) << 58);
   const int shift = k_max_level - options_.level;
   TriangleId* id = &to.id[at.triangle];
-  for (uint64_t rest = chunk.visible; rest != 0; rest &= rest - 1)
+  for (uint64_t rest = result.visible; rest != 0; rest &= rest - 1)
     *id++ = {first | uint64_t(std::countr_zero(rest)) << shift};
   if (chunk.nodes.empty()) {
-    std::fill_n(&to.surface[at.triangle], std::popcount(chunk.visible), 0u);
+    std::fill_n(&to.surface[at.triangle], std::popcount(result.visible), 0u);
   } else {
-    write_nodes(chunk, at, surface_z, to);
+    write_nodes(chunk, result, at, to);
   }
 }
 
-void Memory::write_nodes(const Chunk& chunk, Offset at, double surface_z, const FixedTriangles::Writer& to) const {
-  for (uint64_t rest = chunk.visible; rest != 0; rest &= rest - 1) {
+void Memory::write_nodes(const Chunk& chunk, const ChunkResult& result, Offset at,
+                         const FixedTriangles::Writer& to) const {
+  for (uint64_t rest = result.visible; rest != 0; rest &= rest - 1) {
     const auto j = size_t(std::countr_zero(rest));
     const auto base = uint32_t(at.node);
     const auto place = [base](uint32_t child) { return child == 0 ? 0 : base + child; };
     to.surface[at.triangle++] = chunk.node_count[j] == 0 ? 0 : base;
     const ChunkNode* node = chunk.nodes.data() + chunk.first_node[j];
     for (uint32_t k = 0; k < chunk.node_count[j]; ++k, ++node)
-      to.nodes[at.node++] = {float(node->z - surface_z), {place(node->child[0]), place(node->child[1])}, 0};
+      to.nodes[at.node++] = {float(node->z - surface_z_), {place(node->child[0]), place(node->child[1])}, 0};
   }
 }
 

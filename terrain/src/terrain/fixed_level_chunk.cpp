@@ -78,6 +78,8 @@ class DrawnBuilder {
  public:
   DrawnBuilder(const RoamTree& tree, Chunk& chunk, double base_z) : tree_(tree), chunk_(chunk), base_z_(base_z) {}
 
+  float rise() const { return rise_; }  // the largest along a triangle's edges
+
   void descend(uint32_t node, const PlacedTriangle& t, int depth, unsigned index) {
     const bool split = node != k_none && tree_.is_split(node);
     if (depth == 0) return put(split ? node : k_none, t, index);
@@ -102,8 +104,8 @@ class DrawnBuilder {
     chunk_.apex_z[j] = float(t.apex.world.z - base_z_);
     chunk_.left_z[j] = left.z;
     chunk_.right_z[j] = right.z;
-    const float legs = std::min(std::hypot(left.x, left.y), std::hypot(right.x, right.y));
-    chunk_.steepness = std::max(chunk_.steepness, (std::abs(left.z) + std::abs(right.z)) / legs);
+    rise_ = std::max(rise_, std::abs(left.z) + std::abs(right.z));
+    if (chunk_.flat) return;
     chunk_.bound[j] = split_node == k_none ? 0.0f : tree_.corner[split_node].bound;
     first_ = chunk_.first_node[j] = uint32_t(chunk_.nodes.size());
     if (split_node != k_none) refine(split_node);
@@ -125,8 +127,15 @@ class DrawnBuilder {
   const RoamTree& tree_;
   Chunk& chunk_;
   double base_z_;
+  float rise_ = 0;
   uint32_t first_ = 0;
 };
+
+// A lower bound of the legs of a level's triangles, metres.
+double shortest_leg(const Lattice& lattice, int level) {
+  const double cells = std::ldexp(1.0, lattice.root_bits) * std::exp2(-0.5 * level);
+  return cells * std::min(lattice.spacing.x, lattice.spacing.y);
+}
 
 SplitMark mark_of(const RoamTree& tree, uint32_t node, int depth) {
   const uint32_t first = tree.child[node];
@@ -173,10 +182,11 @@ bool refresh_drawn(const RoamTree& tree, const ChunkVisit& visit, int depth, Chu
   if (up_to_date(tree, visit, depth, chunk, corner_z)) return false;
   chunk.corner_z = corner_z;
   chunk.flat = visit.node == k_none;
-  chunk.steepness = 0;
   chunk.nodes.clear();
   chunk.marks.clear();
-  DrawnBuilder(tree, chunk, t.apex.world.z).descend(visit.node, t, depth, 0);
+  DrawnBuilder builder(tree, chunk, t.apex.world.z);
+  builder.descend(visit.node, t, depth, 0);
+  chunk.steepness = builder.rise() / float(shortest_leg(tree.lattice(), visit.triangle.id.level() + depth));
   if (!chunk.flat) record_marks(tree, visit.node, depth, chunk.marks);
   chunk.has_drawn = true;
   return true;

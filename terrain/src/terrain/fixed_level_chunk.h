@@ -25,31 +25,29 @@ struct SplitMark {
 };
 
 /// A sub-tree of up to 64 triangles of the seeding level, in the order of their turns: triangle j is reached by the
-/// bits of j, the highest first. Kept from frame to frame.
-struct Chunk {
-  uint64_t key = 0;
-  uint64_t seen = 0;       ///< The frame that visited it last.
-  bool has_static = false;
-  bool has_drawn = false;
-
-  // Static: functions of the surface's data.
-  LatticeBox box;
-  uint64_t solid = 0;      ///< Bit j: the triangle is neither padding nor a hole.
-  std::array<float, k_chunk_size> area{};
-
-  // The drawn surface.
-  glm::dvec3 corner_z{0};  ///< Apex, left, right of the chunk.
+/// bits of j, the highest first. Kept from frame to frame. What every frame reads stands first.
+struct alignas(64) Chunk {
+  bool has_static = false, has_drawn = false;
   bool flat = true;        ///< Lies within one leaf.
-  float steepness = 0;     ///< Largest rise along an edge over the chunk's own legs' share of it.
-  std::array<glm::dvec3, k_chunk_size> apex{};
-  std::array<glm::vec3, k_chunk_size> to_left{}, to_right{};
-  std::array<float, k_chunk_size> apex_z{}, left_z{}, right_z{};  ///< Against the chunk's apex; along the edges.
-  std::array<float, k_chunk_size> bound{};                        ///< Of the surface below the triangle, metres.
-  std::array<uint32_t, k_chunk_size> first_node{}, node_count{};
-  std::vector<ChunkNode> nodes;
+  float steepness = 0;     ///< Largest rise along a triangle's edges against its legs.
+  glm::dvec3 corner_z{0};  ///< Drawn z of the chunk's apex, left, right.
+  uint64_t solid = 0;      ///< Bit j: the triangle is neither padding nor a hole. Static.
+  LatticeBox box;          ///< Static.
   std::vector<SplitMark> marks;
+  std::vector<ChunkNode> nodes;
 
-  // One view's.
+  std::array<float, k_chunk_size> area{};    ///< Static.
+  std::array<float, k_chunk_size> apex_z{};  ///< Against the chunk's apex.
+  std::array<float, k_chunk_size> left_z{}, right_z{};  ///< z of the edges once more, side by side.
+  std::array<glm::vec3, k_chunk_size> to_left{}, to_right{};
+  std::array<glm::dvec3, k_chunk_size> apex{};
+  // Of chunks that are not flat.
+  std::array<float, k_chunk_size> bound{};  ///< Of the surface below the triangle, metres.
+  std::array<uint32_t, k_chunk_size> first_node{}, node_count{};
+};
+
+/// What one view makes of a chunk's triangles.
+struct ChunkResult {
   uint64_t visible = 0;
   std::array<float, k_chunk_size> distance{}, screen_area{};
 };

@@ -26,20 +26,24 @@ class ChunkKernel {
  public:
   /// `walk` must outlive the kernel.
   explicit ChunkKernel(const FixedLevelWalk& walk);
-  /// Writes chunk.visible, distance and screen_area. Safe from several threads for different chunks.
-  void evaluate(const ChunkVisit& visit, int depth, Chunk& chunk) const;
+  /// Distances and areas are written for visible triangles; others' are unspecified. Safe from several threads.
+  void evaluate(const ChunkVisit& visit, int depth, const Chunk& chunk, ChunkResult& result) const;
 
  private:
   /// What one chunk's triangles share.
   struct Frame;
+  struct Range;
+  struct Columns {
+    float *distance, *screen_area, *margin;  // apart from each other and from everything read
+  };
   /// By how many metres a triangle passes its tests.
   using Margins = std::array<float, k_chunk_size>;
 
-  Frame frame_of(const ChunkVisit& visit, const Chunk& chunk) const;
-  void measure(const Frame& frame, const ChunkPattern& pattern, Chunk& chunk, Margins& margins) const;
-  void test_halfspace(const Frame& frame, unsigned i, const ChunkPattern& pattern, const Chunk& chunk,
-                      Margins& margins) const;
-  uint64_t test_near(const Frame& frame, const ChunkPattern& pattern, Chunk& chunk) const;
+  Frame frame_of(const ChunkVisit& visit, int depth, const Chunk& chunk) const;
+  unsigned blocks_in_sight(const ChunkVisit& visit, float bound) const;
+  void measure(const Frame& frame, Range range, const Chunk& chunk, const Columns& to) const;
+  void test_halfspace(const Frame& frame, unsigned i, Range range, const Chunk& chunk, Margins& margins) const;
+  uint64_t test_near(const Frame& frame, Range range, const Chunk& chunk, ChunkResult& result) const;
 
   struct Halfspace {
     glm::vec3 n;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sward {
 
@@ -33,7 +34,9 @@ TriangleCorners corners_of(TriangleId id) {
   return c;
 }
 
-void FixedTriangles::Columns::resize(size_t count) {
+void FixedTriangles::Columns::grow(size_t count) {
+  if (count <= id.size()) return;
+  count = std::max(count, id.size() + id.size() / 2);
   apex.resize(count);
   to_left.resize(count);
   to_right.resize(count);
@@ -47,18 +50,41 @@ void FixedTriangles::Columns::resize(size_t count) {
 FixedTriangles::FixedTriangles() : nodes_(1) {}
 
 FixedTriangles::FixedTriangles(const FixedTriangles& other)
-    : columns_(other.columns_), nodes_(other.nodes_), surface_z_(other.surface_z_) {}
+    : columns_(other.columns_),
+      nodes_(other.nodes_),
+      count_(other.count_),
+      node_count_(other.node_count_),
+      surface_z_(other.surface_z_) {}
 
 FixedTriangles& FixedTriangles::operator=(const FixedTriangles& other) {
   columns_ = other.columns_;
   nodes_ = other.nodes_;
+  count_ = other.count_;
+  node_count_ = other.node_count_;
   surface_z_ = other.surface_z_;
   ++contents_;
   return *this;
 }
 
-FixedTriangles::FixedTriangles(FixedTriangles&&) noexcept = default;
-FixedTriangles& FixedTriangles::operator=(FixedTriangles&&) noexcept = default;
+FixedTriangles::FixedTriangles(FixedTriangles&& other) noexcept
+    : columns_(std::move(other.columns_)),
+      nodes_(std::move(other.nodes_)),
+      count_(std::exchange(other.count_, 0)),
+      node_count_(std::exchange(other.node_count_, 0)),
+      surface_z_(other.surface_z_),
+      contents_(other.contents_++),
+      memory_(std::move(other.memory_)) {}
+
+FixedTriangles& FixedTriangles::operator=(FixedTriangles&& other) noexcept {
+  columns_ = std::move(other.columns_);
+  nodes_ = std::move(other.nodes_);
+  count_ = std::exchange(other.count_, 0);
+  node_count_ = std::exchange(other.node_count_, 0);
+  surface_z_ = other.surface_z_;
+  contents_ = other.contents_++;
+  memory_ = std::move(other.memory_);
+  return *this;
+}
 FixedTriangles::~FixedTriangles() = default;
 
 FixedTriangle FixedTriangles::operator[](size_t i) const {
@@ -69,8 +95,8 @@ FixedTriangle FixedTriangles::operator[](size_t i) const {
 }
 
 void FixedTriangles::push_back(const FixedTriangle& triangle) {
-  columns_.resize(size() + 1);
-  set(size() - 1, triangle);
+  write(count_ + 1, std::max<size_t>(node_count_, 1));
+  set(count_ - 1, triangle);
 }
 
 void FixedTriangles::set(size_t i, const FixedTriangle& triangle) {
@@ -87,9 +113,8 @@ void FixedTriangles::set(size_t i, const FixedTriangle& triangle) {
 }
 
 uint32_t FixedTriangles::add_node(const SurfaceNode& node) {
-  nodes_.push_back(node);
-  ++contents_;
-  return uint32_t(nodes_.size() - 1);
+  write(count_, std::max<size_t>(node_count_, 1) + 1).nodes.back() = node;
+  return uint32_t(node_count_ - 1);
 }
 
 void FixedTriangles::set_surface_z(double z) {
@@ -98,20 +123,22 @@ void FixedTriangles::set_surface_z(double z) {
 }
 
 void FixedTriangles::clear() {
-  columns_.resize(0);
-  nodes_.assign(1, SurfaceNode{});
+  write(0, 1);
   surface_z_ = 0;
-  ++contents_;
 }
 
 FixedTriangles::Writer FixedTriangles::write(size_t triangles, size_t nodes) {
   SWARD_ASSERT(nodes >= 1, "the placeholder is a node");
-  columns_.resize(triangles);
-  nodes_.resize(nodes);
+  columns_.grow(triangles);
+  if (nodes > nodes_.size()) nodes_.resize(std::max(nodes, nodes_.size() + nodes_.size() / 2));
   nodes_[0] = {};
+  count_ = triangles;
+  node_count_ = nodes;
   ++contents_;
   Columns& c = columns_;
-  return {c.apex, c.to_left, c.to_right, c.id, c.surface, c.area, c.screen_area, c.distance, nodes_};
+  return {{c.apex.data(), count_},        {c.to_left.data(), count_}, {c.to_right.data(), count_},
+          {c.id.data(), count_},          {c.surface.data(), count_}, {c.area.data(), count_},
+          {c.screen_area.data(), count_}, {c.distance.data(), count_}, {nodes_.data(), node_count_}};
 }
 
 int level_for_area(const HeightField& field, double area_m2) {

@@ -84,21 +84,21 @@ class FixedTriangles {
   FixedTriangles& operator=(FixedTriangles&&) noexcept;
   ~FixedTriangles();
 
-  size_t size() const { return columns_.id.size(); }
-  bool empty() const { return columns_.id.empty(); }
+  size_t size() const { return count_; }
+  bool empty() const { return count_ == 0; }
 
   // Columns, each of size() elements, as in FixedTriangle. Valid until the next call that is not const.
-  std::span<const glm::dvec3> apex() const { return columns_.apex; }
-  std::span<const glm::vec3> to_left() const { return columns_.to_left; }
-  std::span<const glm::vec3> to_right() const { return columns_.to_right; }
-  std::span<const TriangleId> id() const { return columns_.id; }
-  std::span<const uint32_t> surface() const { return columns_.surface; }
-  std::span<const float> area() const { return columns_.area; }
-  std::span<const float> screen_area() const { return columns_.screen_area; }
-  std::span<const float> distance() const { return columns_.distance; }
+  std::span<const glm::dvec3> apex() const { return {columns_.apex.data(), count_}; }
+  std::span<const glm::vec3> to_left() const { return {columns_.to_left.data(), count_}; }
+  std::span<const glm::vec3> to_right() const { return {columns_.to_right.data(), count_}; }
+  std::span<const TriangleId> id() const { return {columns_.id.data(), count_}; }
+  std::span<const uint32_t> surface() const { return {columns_.surface.data(), count_}; }
+  std::span<const float> area() const { return {columns_.area.data(), count_}; }
+  std::span<const float> screen_area() const { return {columns_.screen_area.data(), count_}; }
+  std::span<const float> distance() const { return {columns_.distance.data(), count_}; }
 
   /// Splits of the drawn surface below triangles; node 0 is a placeholder, always there.
-  std::span<const SurfaceNode> nodes() const { return nodes_; }
+  std::span<const SurfaceNode> nodes() const { return {nodes_.data(), node_count_}; }
   /// World z that SurfaceNode::z is relative to, metres.
   double surface_z() const { return surface_z_; }
 
@@ -125,8 +125,8 @@ class FixedTriangles {
     std::span<float> area, screen_area, distance;
     std::span<SurfaceNode> nodes;  ///< The placeholder included.
   };
-  /// Makes room for exactly that many triangles and nodes (at least 1), with unspecified contents except node 0. The
-  /// spans are valid until the next call that is not const.
+  /// Changes size() and the number of nodes (at least 1). What was there before stays, what is new is unspecified, node 0
+  /// is the placeholder. The spans are valid until the next call that is not const. Does not free memory.
   Writer write(size_t triangles, size_t nodes);
 
   /// A number that changes whenever the contents may have; never 0.
@@ -141,10 +141,11 @@ class FixedTriangles {
     std::vector<TriangleId> id;
     std::vector<uint32_t> surface;
     std::vector<float> area, screen_area, distance;
-    void resize(size_t count);
+    void grow(size_t count);
   };
-  Columns columns_;
+  Columns columns_;  // as long as the longest so far: only what is new is ever initialised
   std::vector<SurfaceNode> nodes_;
+  size_t count_ = 0, node_count_ = 1;
   double surface_z_ = 0;
   uint64_t contents_ = 1;
   std::unique_ptr<FixedTrianglesMemory> memory_;
