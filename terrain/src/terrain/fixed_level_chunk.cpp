@@ -13,30 +13,8 @@ namespace sward::roam {
 
 namespace {
 
-struct Place {
-  LatticePoint lattice;
-  glm::dvec3 world;
-};
-
-struct PlacedTriangle {
-  Place apex, left, right;
-  TriangleCorners corners() const { return {apex.lattice, left.lattice, right.lattice}; }
-  PlacedTriangle child(unsigned turn, const Place& m) const {
-    return turn == 0 ? PlacedTriangle{m, apex, left} : PlacedTriangle{m, right, apex};
-  }
-};
-
-Place place_of(const DrawnCorner& corner) {
-  return {corner.lattice, corner.world};
-}
-
-PlacedTriangle placed(const ChunkVisit& visit) {
-  return {place_of(visit.triangle.apex), place_of(visit.triangle.left), place_of(visit.triangle.right)};
-}
-
-Place middle(const Lattice& lattice, const Place& a, const Place& b) {
-  const LatticePoint m = a.lattice + (b.lattice - a.lattice) / 2;
-  return {m, glm::dvec3(lattice.world_xy(m), 0.5 * (a.world.z + b.world.z))};
+TriangleCorners lattice_of(const DrawnTriangle& t) {
+  return {t.apex.lattice, t.left.lattice, t.right.lattice};
 }
 
 LatticeBox box_of(const TriangleCorners& c) {
@@ -62,8 +40,11 @@ class StaticBuilder {
  private:
   void put(const TriangleCorners& c, Cover cover, unsigned index) {
     if (cover == Cover::padding || surface_.all_holes(box_of(c))) return;
-    const glm::dvec2 a = lattice_.world_xy(c.apex), b = lattice_.world_xy(c.left), d = lattice_.world_xy(c.right);
-    const glm::dvec2 gradient = surface_.data_gradient((a + b + d) / 3.0);
+    const glm::dvec2 apex = lattice_.world_xy(c.apex), left = lattice_.world_xy(c.left), right = lattice_.world_xy(c.right);
+    chunk_.apex[index] = glm::dvec3(apex, 0);
+    chunk_.to_left[index] = glm::vec3(glm::vec2(left - apex), 0);
+    chunk_.to_right[index] = glm::vec3(glm::vec2(right - apex), 0);
+    const glm::dvec2 gradient = surface_.data_gradient((apex + left + right) / 3.0);
     chunk_.area[index] = float(level_area_ * std::sqrt(1.0 + glm::dot(gradient, gradient)));
     chunk_.solid |= uint64_t(1) << index;
   }
@@ -74,37 +55,38 @@ class StaticBuilder {
   double level_area_ = 0;  // horizontal, square metres
 };
 
+// Heights alone; corners are given as their z: (apex, left, right).
 class DrawnBuilder {
  public:
-  DrawnBuilder(const RoamTree& tree, Chunk& chunk, double base_z) : tree_(tree), chunk_(chunk), base_z_(base_z) {}
+  DrawnBuilder(const RoamTree& tree, Chunk& chunk) : tree_(tree), chunk_(chunk), base_z_(chunk.corner_z[0]) {}
 
   float rise() const { return rise_; }  // the largest along a triangle's edges
 
-  void descend(uint32_t node, const PlacedTriangle& t, int depth, unsigned index) {
-    const bool split = node != k_none && tree_.is_split(node);
-    if (depth == 0) return put(split ? node : k_none, t, index);
-    Place m;
-    if (split) {
-      const uint32_t vertex = tree_.corner[tree_.child[node]].apex;
-      m = {tree_.vertices.lattice[vertex], drawn_position(tree_, vertex)};
-    } else {
-      m = middle(tree_.lattice(), t.left, t.right);
-    }
-    for (unsigned turn = 0; turn < 2; ++turn) {
-      descend(split ? tree_.child[node] + turn : k_none, t.child(turn, m), depth - 1, 2 * index + turn);
-    }
+  // Below a split node of the mesh.
+  void descend(uint32_t node, glm::dvec3 z, int depth, unsigned index) {
+    if (!tree_.is_split(node)) return descend_flat(z, depth, index);
+    if (depth == 0) return put(z, index, node);
+    const uint32_t first = tree_.child[node];
+    const double m = drawn_position(tree_, tree_.corner[first].apex).z;
+    descend(first, {m, z[0], z[1]}, depth - 1, 2 * index);
+    descend(first + 1, {m, z[2], z[0]}, depth - 1, 2 * index + 1);
+  }
+
+  void descend_flat(glm::dvec3 z, int depth, unsigned index) {
+    if (depth == 0) return put(z, index, k_none);
+    const double m = 0.5 * (z[1] + z[2]);
+    descend_flat({m, z[0], z[1]}, depth - 1, 2 * index);
+    descend_flat({m, z[2], z[0]}, depth - 1, 2 * index + 1);
   }
 
  private:
-  void put(uint32_t split_node, const PlacedTriangle& t, unsigned j) {
-    const glm::vec3 left(t.left.world - t.apex.world), right(t.right.world - t.apex.world);
-    chunk_.apex[j] = t.apex.world;
-    chunk_.to_left[j] = left;
-    chunk_.to_right[j] = right;
-    chunk_.apex_z[j] = float(t.apex.world.z - base_z_);
-    chunk_.left_z[j] = left.z;
-    chunk_.right_z[j] = right.z;
-    rise_ = std::max(rise_, std::abs(left.z) + std::abs(right.z));
+  void put(glm::dvec3 z, unsigned j, uint32_t split_node) {
+    const float left = float(z[1] - z[0]), right = float(z[2] - z[0]);
+    chunk_.apex[j].z = z[0];
+    chunk_.apex_z[j] = float(z[0] - base_z_);
+    chunk_.to_left[j].z = chunk_.left_z[j] = left;
+    chunk_.to_right[j].z = chunk_.right_z[j] = right;
+    rise_ = std::max(rise_, std::abs(left) + std::abs(right));
     if (chunk_.flat) return;
     chunk_.bound[j] = split_node == k_none ? 0.0f : tree_.corner[split_node].bound;
     first_ = chunk_.first_node[j] = uint32_t(chunk_.nodes.size());
@@ -168,26 +150,30 @@ bool up_to_date(const RoamTree& tree, const ChunkVisit& visit, int depth, const 
 }  // namespace
 
 void build_static(const FixedLevelWalk& walk, const ChunkVisit& visit, int depth, Chunk& chunk) {
-  const PlacedTriangle t = placed(visit);
+  const TriangleCorners corners = lattice_of(visit.triangle);
   chunk.solid = 0;
-  chunk.box = box_of(t.corners());
-  chunk.area = {};
-  StaticBuilder(walk, chunk).descend(t.corners(), visit.triangle.cover, depth, 0);
+  chunk.box = box_of(corners);
+  StaticBuilder(walk, chunk).descend(corners, visit.triangle.cover, depth, 0);
   chunk.has_static = true;
+  chunk.has_drawn = false;  // heights stand beside what was just written
 }
 
 bool refresh_drawn(const RoamTree& tree, const ChunkVisit& visit, int depth, Chunk& chunk) {
-  const PlacedTriangle t = placed(visit);
+  const DrawnTriangle& t = visit.triangle;
   const glm::dvec3 corner_z(t.apex.world.z, t.left.world.z, t.right.world.z);
   if (up_to_date(tree, visit, depth, chunk, corner_z)) return false;
   chunk.corner_z = corner_z;
   chunk.flat = visit.node == k_none;
   chunk.nodes.clear();
   chunk.marks.clear();
-  DrawnBuilder builder(tree, chunk, t.apex.world.z);
-  builder.descend(visit.node, t, depth, 0);
-  chunk.steepness = builder.rise() / float(shortest_leg(tree.lattice(), visit.triangle.id.level() + depth));
-  if (!chunk.flat) record_marks(tree, visit.node, depth, chunk.marks);
+  DrawnBuilder builder(tree, chunk);
+  if (chunk.flat) {
+    builder.descend_flat(corner_z, depth, 0);
+  } else {
+    builder.descend(visit.node, corner_z, depth, 0);
+    record_marks(tree, visit.node, depth, chunk.marks);
+  }
+  chunk.steepness = builder.rise() / float(shortest_leg(tree.lattice(), t.id.level() + depth));
   chunk.has_drawn = true;
   return true;
 }
