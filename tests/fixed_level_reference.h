@@ -87,7 +87,8 @@ class Collector {
   double level_area_ = 0;  // horizontal, square metres
 };
 
-inline Collector::Collector(const RoamTree& tree, const View& view, const FixedLevelOptions& options, PlainTriangles& out)
+inline Collector::Collector(const RoamTree& tree, const View& view, const FixedLevelOptions& options,
+                            PlainTriangles& out)
     : tree_(tree),
       surface_(tree.surface()),
       lattice_(tree.lattice()),

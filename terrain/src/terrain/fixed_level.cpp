@@ -99,7 +99,7 @@ class Memory final : public FixedTrianglesMemory {
   uint64_t contents_ = 0;  // of `out` after it
 
   std::vector<ChunkVisit> visits_;
-  std::vector<Chunk*> chunks_;  // of the visits
+  std::vector<Chunk*> chunks_;        // of the visits
   std::vector<ChunkResult> results_;  // of the visits, where several threads work
   std::vector<Offset> offsets_;
   int depth_ = 0;

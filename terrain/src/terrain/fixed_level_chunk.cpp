@@ -40,7 +40,8 @@ class StaticBuilder {
  private:
   void put(const TriangleCorners& c, Cover cover, unsigned index) {
     if (cover == Cover::padding || surface_.all_holes(box_of(c))) return;
-    const glm::dvec2 apex = lattice_.world_xy(c.apex), left = lattice_.world_xy(c.left), right = lattice_.world_xy(c.right);
+    const glm::dvec2 apex = lattice_.world_xy(c.apex), left = lattice_.world_xy(c.left),
+                     right = lattice_.world_xy(c.right);
     chunk_.apex[index] = glm::dvec3(apex, 0);
     chunk_.to_left[index] = glm::vec3(glm::vec2(left - apex), 0);
     chunk_.to_right[index] = glm::vec3(glm::vec2(right - apex), 0);

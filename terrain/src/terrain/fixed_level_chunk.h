@@ -18,9 +18,9 @@ struct ChunkNode {
 
 /// A split of the mesh's tree below a chunk as it was when the chunk was built.
 struct SplitMark {
-  double z;                  ///< Of the split vertex.
-  float bound;               ///< Of a node of the seeding level, else 0.
-  uint32_t children_split;   ///< Bit i: child i is split, too.
+  double z;                 ///< Of the split vertex.
+  float bound;              ///< Of a node of the seeding level, else 0.
+  uint32_t children_split;  ///< Bit i: child i is split, too.
   bool operator==(const SplitMark&) const = default;
 };
 
@@ -36,8 +36,8 @@ struct alignas(64) Chunk {
   std::vector<SplitMark> marks;
   std::vector<ChunkNode> nodes;
 
-  std::array<float, k_chunk_size> area{};    ///< Static.
-  std::array<float, k_chunk_size> apex_z{};  ///< Against the chunk's apex.
+  std::array<float, k_chunk_size> area{};               ///< Static.
+  std::array<float, k_chunk_size> apex_z{};             ///< Against the chunk's apex.
   std::array<float, k_chunk_size> left_z{}, right_z{};  ///< z of the edges once more, side by side.
   std::array<glm::vec3, k_chunk_size> to_left{}, to_right{};
   std::array<glm::dvec3, k_chunk_size> apex{};

@@ -10,6 +10,15 @@
 #include <cmath>
 #include <limits>
 
+// Loops twice as wide where the processor can, chosen when the program starts; the same operations in the same order,
+// so the same results. Sanitizers run before that choice can be made.
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define SWARD_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define SWARD_WIDE
+#endif
+
 namespace sward::roam {
 
 namespace {
@@ -131,8 +140,8 @@ ChunkKernel::Frame ChunkKernel::frame_of(const ChunkVisit& visit, int depth, con
   frame.w = float(glm::dot(linear(row_w_), apex) + row_w_.w);
   const bool test_facing = walk_.options().skip_back_faces && !chunk.flat;
   frame.away = test_facing ? canopy_ : std::numeric_limits<float>::max();
-  const double farthest = std::max({glm::length(apex), glm::length(t.left.world - walk_.view().eye),
-                                    glm::length(t.right.world - walk_.view().eye)});
+  const double farthest = std::max(
+      {glm::length(apex), glm::length(t.left.world - walk_.view().eye), glm::length(t.right.world - walk_.view().eye)});
   const float bound = visit.node == k_none ? 0.0f : walk_.tree().corner[visit.node].bound;
   frame.doubt = k_rounding * (2 + chunk.steepness) * (float(farthest) + bound);
   frame.all_pass = visit.active == 0 && float(farthest) + bound + frame.doubt <= horizon_ && !test_facing;
@@ -190,7 +199,7 @@ void ChunkKernel::evaluate(const ChunkVisit& visit, int depth, const Chunk& chun
 }
 
 // Longer than most: it is one loop body, each line a column of arithmetic.
-void ChunkKernel::measure(const Frame& frame, Range range, const Chunk& chunk, const Columns& to) const {
+SWARD_WIDE void ChunkKernel::measure(const Frame& frame, Range range, const Chunk& chunk, const Columns& to) const {
   const ChunkPattern& pattern = *frame.pattern;
   const glm::vec3 row = w_, shift = shift_, origin = frame.apex;
   const glm::vec2 to_left = frame.left, to_right = frame.right;
@@ -230,8 +239,8 @@ void ChunkKernel::measure(const Frame& frame, Range range, const Chunk& chunk, c
   }
 }
 
-void ChunkKernel::test_halfspace(const Frame& frame, unsigned i, Range range, const Chunk& chunk,
-                                 Margins& margins) const {
+SWARD_WIDE void ChunkKernel::test_halfspace(const Frame& frame, unsigned i, Range range, const Chunk& chunk,
+                                            Margins& margins) const {
   static constexpr std::array<float, k_chunk_size> k_no_bound{};
   const ChunkPattern& pattern = *frame.pattern;
   const std::array<float, k_chunk_size>& bound = chunk.flat ? k_no_bound : chunk.bound;

@@ -18,8 +18,8 @@ double squared_distance_to_edge(glm::dvec3 a, glm::dvec3 ab) {
   return glm::dot(p, p);
 }
 
-// From the origin to the nearest point of a triangle: inside, on an edge or at a corner, by the signs of the barycentric
-// coordinates of the projection.
+// From the origin to the nearest point of a triangle: inside, on an edge or at a corner, by the signs of the
+// barycentric coordinates of the projection.
 double distance_to_triangle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
   const glm::dvec3 ab = b - a, ac = c - a, normal = glm::cross(ab, ac);
   const double area2 = glm::dot(normal, normal);

@@ -90,8 +90,7 @@ FixedTriangles::~FixedTriangles() = default;
 FixedTriangle FixedTriangles::operator[](size_t i) const {
   SWARD_ASSERT(i < size(), "no such triangle");
   const Columns& c = columns_;
-  return {c.apex[i], c.to_left[i], c.to_right[i],    c.id[i],
-          c.surface[i], c.area[i], c.screen_area[i], c.distance[i]};
+  return {c.apex[i], c.to_left[i], c.to_right[i], c.id[i], c.surface[i], c.area[i], c.screen_area[i], c.distance[i]};
 }
 
 void FixedTriangles::push_back(const FixedTriangle& triangle) {
@@ -136,8 +135,8 @@ FixedTriangles::Writer FixedTriangles::write(size_t triangles, size_t nodes) {
   node_count_ = nodes;
   ++contents_;
   Columns& c = columns_;
-  return {{c.apex.data(), count_},        {c.to_left.data(), count_}, {c.to_right.data(), count_},
-          {c.id.data(), count_},          {c.surface.data(), count_}, {c.area.data(), count_},
+  return {{c.apex.data(), count_},        {c.to_left.data(), count_},  {c.to_right.data(), count_},
+          {c.id.data(), count_},          {c.surface.data(), count_},  {c.area.data(), count_},
           {c.screen_area.data(), count_}, {c.distance.data(), count_}, {nodes_.data(), node_count_}};
 }
 

@@ -24,7 +24,8 @@ class WorkerPool {
   template <class Work>
   void run(int parts, Work&& work) {
     if (parts <= 1) return work(0);
-    start(parts, [](void* context, int part) { (*static_cast<std::remove_reference_t<Work>*>(context))(part); }, &work);
+    start(
+        parts, [](void* context, int part) { (*static_cast<std::remove_reference_t<Work>*>(context))(part); }, &work);
     work(0);
     wait();
   }

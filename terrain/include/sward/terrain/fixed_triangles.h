@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/terrain/height_field.h>
+#include <sward/terrain/view.h>
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <sward/terrain/height_field.h>
-#include <sward/terrain/view.h>
 #include <vector>
 
 namespace sward {
@@ -41,8 +41,8 @@ struct TriangleCorners {
 };
 TriangleCorners corners_of(TriangleId id);
 
-/// A triangle of a layer's level, ready for seeding: one element of FixedTriangles. x and y of its corners are static; z
-/// is the surface drawn in this frame.
+/// A triangle of a layer's level, ready for seeding: one element of FixedTriangles. x and y of its corners are static;
+/// z is the surface drawn in this frame.
 struct FixedTriangle {
   glm::dvec3 apex{0};     ///< World.
   glm::vec3 to_left{0};   ///< left - apex, metres; x, y exact.
@@ -125,8 +125,8 @@ class FixedTriangles {
     std::span<float> area, screen_area, distance;
     std::span<SurfaceNode> nodes;  ///< The placeholder included.
   };
-  /// Changes size() and the number of nodes (at least 1). What was there before stays, what is new is unspecified, node 0
-  /// is the placeholder. The spans are valid until the next call that is not const. Does not free memory.
+  /// Changes size() and the number of nodes (at least 1). What was there before stays, what is new is unspecified, node
+  /// 0 is the placeholder. The spans are valid until the next call that is not const. Does not free memory.
   Writer write(size_t triangles, size_t nodes);
 
   /// A number that changes whenever the contents may have; never 0.
@@ -152,12 +152,12 @@ class FixedTriangles {
 };
 
 struct FixedLevelOptions {
-  int level = 24;                ///< Bintree level to emit.
-  float horizon_m = 100;         ///< 3-D distance from the eye beyond which nothing is emitted.
-  float canopy_m = 1;            ///< Height of what grows on it, for culling.
+  int level = 24;         ///< Bintree level to emit.
+  float horizon_m = 100;  ///< 3-D distance from the eye beyond which nothing is emitted.
+  float canopy_m = 1;     ///< Height of what grows on it, for culling.
   bool skip_back_faces = true;
-  int threads = 0;               ///< At most so many work on it, the calling one included; 0: one a core. Small sets stay on
-                                 ///< the calling thread, and the result is the same whatever the number.
+  int threads = 0;  ///< At most so many work on it, the calling one included; 0: one a core. Small sets stay on
+                    ///< the calling thread, and the result is the same whatever the number.
 };
 
 /// The level whose triangles' area is nearest to `area_m2` (geometrically), within [0, k_max_level].
