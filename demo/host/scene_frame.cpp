@@ -37,7 +37,7 @@ uint32_t SceneFrame::cut_triangles(const View& view) {
     options.horizon_m = each.layer.horizon_m * float(view.zoom());
     options.canopy_m = canopy_height(each.layer);
     mesh_.fixed_level_triangles(options, each.triangles);
-    count += uint32_t(each.triangles.triangles.size());
+    count += uint32_t(each.triangles.size());
   }
   return count;
 }

@@ -90,7 +90,7 @@ void flight(benchmark::State& state) {
       }
       update_ms.push_back(middle - start);
       fixed_ms.push_back(end - middle);
-      fixed_triangles.push_back(double(fixed.triangles.size()));
+      fixed_triangles.push_back(double(fixed.size()));
       splits += stats->splits;
       merges += stats->merges;
     }

@@ -135,12 +135,14 @@ TEST_F(Classify, PhototropicPlantsTurnToTheSun) {
 /// Two splits below every triangle: a bump of `height` in the middle of its base, its children split again.
 FixedTriangles bumpy_ground(const View& view, double reach, float height) {
   FixedTriangles ground = level_ground(k_side, 8, view.eye, reach);
-  ground.surface_z = 40.0;
-  for (FixedTriangle& t : ground.triangles) {
-    t.surface = uint32_t(ground.surface.size());
-    ground.surface.push_back({float(height - 40.0), {t.surface + 1, t.surface + 2}, 0});
-    ground.surface.push_back({float(0.5 * height - 40.0), {0, 0}, 0});
-    ground.surface.push_back({float(0.8 * height - 40.0), {0, 0}, 0});
+  ground.set_surface_z(40.0);
+  for (size_t i = 0; i < ground.size(); ++i) {
+    FixedTriangle t = ground[i];
+    const auto next = uint32_t(ground.nodes().size());
+    t.surface = ground.add_node({float(height - 40.0), {next + 1, next + 2}, 0});
+    ground.add_node({float(0.5 * height - 40.0), {0, 0}, 0});
+    ground.add_node({float(0.8 * height - 40.0), {0, 0}, 0});
+    ground.set(i, t);
   }
   return ground;
 }

@@ -125,12 +125,14 @@ class Patch {
       return p.w > 0 ? glm::dvec3(glm::dvec2(p) / p.w, p.w) : glm::dvec3(0, 0, -1);
     };
     const double aspect = double(view_.viewport.x) / view_.viewport.y;
-    for (FixedTriangle& t : triangles_.triangles) {
+    for (size_t i = 0; i < triangles_.size(); ++i) {
+      FixedTriangle t = triangles_[i];
       const glm::dvec3 a = project(t.apex), b = project(t.apex + glm::dvec3(t.to_left)),
                        c = project(t.apex + glm::dvec3(t.to_right));
       const bool behind = a.z < 0 || b.z < 0 || c.z < 0;
       const double area = 0.5 * aspect * std::abs(cross(glm::dvec2(b - a), glm::dvec2(c - a)));
       t.screen_area = behind ? std::numeric_limits<float>::infinity() : float(area);
+      triangles_.set(i, t);
     }
   }
 

@@ -39,6 +39,12 @@ FixedTriangles collect(const RoamMesh& mesh, const FixedLevelOptions& options) {
   return out;
 }
 
+std::vector<FixedTriangle> listed(const FixedTriangles& triangles) {
+  std::vector<FixedTriangle> list;
+  for (size_t i = 0; i < triangles.size(); ++i) list.push_back(triangles[i]);
+  return list;
+}
+
 // Gentle hills.
 Terrain gentle_terrain() {
   TerrainOptions options;
@@ -81,7 +87,7 @@ double surface_z(const FixedTriangles& all, const FixedTriangle& t, glm::dvec2 w
   double apex = t.apex.z, left = apex + t.to_left.z, right = apex + t.to_right.z;
   double wl = w.x, wr = w.y;
   for (uint32_t node = t.surface; node != 0;) {
-    const double wa = 1 - wl - wr, middle = all.surface_z + all.surface[node].z;
+    const double wa = 1 - wl - wr, middle = all.surface_z() + all.nodes()[node].z;
     const int turn = wl >= wr ? 0 : 1;
     const double new_left = turn == 0 ? apex : right, new_right = turn == 0 ? left : apex;
     const double left_weight = turn == 0 ? wa : wr - wl, right_weight = turn == 0 ? wl - wr : wa;
@@ -90,7 +96,7 @@ double surface_z(const FixedTriangles& all, const FixedTriangle& t, glm::dvec2 w
     right = new_right;
     wl = left_weight;
     wr = right_weight;
-    node = all.surface[node].child[turn];
+    node = all.nodes()[node].child[turn];
   }
   return apex * (1 - wl - wr) + left * wl + right * wr;
 }
@@ -188,10 +194,10 @@ TEST(LevelForArea, IsTheNearestByRatio) {
 TEST(FixedLevel, IsEmptyBeforeTheFirstUpdate) {
   const Terrain terrain = gentle_terrain();
   FixedTriangles out;
-  out.triangles.resize(3);
+  for (int i = 0; i < 3; ++i) out.push_back({});
   make_mesh(terrain, 100).fixed_level_triangles({}, out);
-  EXPECT_TRUE(out.triangles.empty());
-  EXPECT_EQ(out.surface.size(), 1u);
+  EXPECT_TRUE(out.empty());
+  EXPECT_EQ(out.nodes().size(), 1u);
 }
 
 TEST(FixedLevel, CornersAreThoseOfTheIdExactly) {
@@ -202,9 +208,9 @@ TEST(FixedLevel, CornersAreThoseOfTheIdExactly) {
     RoamMesh mesh = make_mesh(terrain, 400);
     ASSERT_TRUE(mesh.update(low_view(*terrain.field, 1)).has_value());
     const FixedTriangles out = collect(mesh, {16, 200, 1, true});
-    ASSERT_GT(out.triangles.size(), 200u);
+    ASSERT_GT(out.size(), 200u);
     std::set<uint64_t> ids;
-    for (const FixedTriangle& t : out.triangles) {
+    for (const FixedTriangle& t : listed(out)) {
       ASSERT_EQ(t.id.level(), 16);
       ASSERT_TRUE(ids.insert(t.id.bits).second);
       const sward::TriangleCorners c = sward::corners_of(t.id);
@@ -227,14 +233,14 @@ TEST(FixedLevel, SurfaceIsTheDrawnMesh) {
       ASSERT_TRUE(mesh.update(low_view(*terrain.field, 3, 30)).has_value());
       const std::vector<uint32_t> leaves = mesh.all_indices();
       const FixedTriangles out = collect(mesh, {level, 500, 1, false});
-      ASSERT_FALSE(out.triangles.empty());
+      ASSERT_FALSE(out.empty());
       for (int i = 0; i < 400; ++i) {
-        const FixedTriangle& t = out.triangles[random.below(uint32_t(out.triangles.size()))];
+        const FixedTriangle t = out[random.below(uint32_t(out.size()))];
         glm::dvec2 w(random.uniform(0, 1), random.uniform(0, 1));
         if (w.x + w.y > 1) w = 1.0 - w;
         const glm::dvec2 xy = glm::dvec2(t.apex) + w.x * glm::dvec2(t.to_left) + w.y * glm::dvec2(t.to_right);
         ASSERT_NEAR(surface_z(out, t, w), mesh_z(mesh, leaves, xy), 1e-3);
-        deep |= t.surface != 0 && out.surface[t.surface].child[0] != 0;
+        deep |= t.surface != 0 && out.nodes()[t.surface].child[0] != 0;
         flat |= t.surface == 0;
       }
     }
@@ -252,7 +258,7 @@ TEST(FixedLevel, CoversTheGroundInSight) {
     ASSERT_TRUE(mesh.update(view).has_value());
     const std::vector<uint32_t> leaves = mesh.all_indices();
     const FixedLevelOptions options{12, 250, 2, false};
-    const FixedTriangles out = collect(mesh, options);
+    const std::vector<FixedTriangle> triangles = listed(collect(mesh, options));
     for (int k = 0; k < 300; ++k) {
       const double azimuth = random.uniform(-k_pi, k_pi), distance = random.uniform(0, 250);
       const glm::dvec2 xy = glm::dvec2(view.eye) + distance * glm::dvec2(std::cos(azimuth), std::sin(azimuth));
@@ -261,7 +267,7 @@ TEST(FixedLevel, CoversTheGroundInSight) {
       // Ground or the tip of what may stand there.
       if (!in_frustum(view, ground) && !in_frustum(view, ground + glm::dvec3(0, 0, 1.99))) continue;
       ++points;
-      const bool covered = std::any_of(out.triangles.begin(), out.triangles.end(), [&](const FixedTriangle& t) {
+      const bool covered = std::any_of(triangles.begin(), triangles.end(), [&](const FixedTriangle& t) {
         const glm::dvec2 w = weights(t, xy);
         return w.x >= -1e-6 && w.y >= -1e-6 && w.x + w.y <= 1 + 1e-6;
       });
@@ -278,7 +284,7 @@ TEST(FixedLevel, EmitsOnlyWhatMayBeSeen) {
     const View view = low_view(*terrain.field, i, 10);
     ASSERT_TRUE(mesh.update(view).has_value());
     const auto planes = sward::frustum_planes(view);
-    for (const FixedTriangle& t : collect(mesh, {14, 150, 1, true}).triangles) {
+    for (const FixedTriangle& t : listed(collect(mesh, {14, 150, 1, true}))) {
       ASSERT_LE(t.distance, 150);
       if (t.surface != 0) continue;
       for (const sward::Plane& plane : planes) {
@@ -307,7 +313,7 @@ TEST(FixedLevel, SetDoesNotDependOnTheMesh) {
       RoamMesh mesh = make_mesh(terrain, budget);
       ASSERT_TRUE(mesh.update(view).has_value());
       sets.emplace_back();
-      for (const FixedTriangle& t : collect(mesh, {15, 300, 1, false}).triangles) sets.back()[t.id.bits] = t;
+      for (const FixedTriangle& t : listed(collect(mesh, {15, 300, 1, false}))) sets.back()[t.id.bits] = t;
     }
     for (const auto& all : sets) {
       for (const auto& [id, t] : all) {
@@ -333,9 +339,9 @@ TEST(FixedLevel, AreaIsTheHorizontalOneOverTheSlopesCosine) {
   RoamMesh mesh = make_mesh(terrain, 50);
   ASSERT_TRUE(mesh.update(low_view(*terrain.field, 0, 30)).has_value());
   const FixedTriangles out = collect(mesh, {11, 400, 1, false});
-  ASSERT_FALSE(out.triangles.empty());
+  ASSERT_FALSE(out.empty());
   // Roots of 320 m x 320 m / 2, halved 11 times; cosine 1 / 1.25.
-  for (const FixedTriangle& t : out.triangles) ASSERT_NEAR(t.area, 51200.0 / 2048 * 1.25, 1e-4);
+  for (const FixedTriangle& t : listed(out)) ASSERT_NEAR(t.area, 51200.0 / 2048 * 1.25, 1e-4);
 }
 
 TEST(FixedLevel, ScreenAreaIsInHalfViewportHeightsSquared) {
@@ -344,19 +350,19 @@ TEST(FixedLevel, ScreenAreaIsInHalfViewportHeightsSquared) {
   // Straight down with 90 degrees: at 50 m, half the viewport's height is 50 m of ground.
   ASSERT_TRUE(mesh.update(View::look({1, 2, 50}, 0.3, -0.5 * k_pi, 0.5 * k_pi, {1600, 800}, 1, 1000)).has_value());
   FixedTriangles out = collect(mesh, {11, 400, 1, true});
-  ASSERT_GT(out.triangles.size(), 100u);
-  for (const FixedTriangle& t : out.triangles) ASSERT_NEAR(t.screen_area, 25.0 / 2500, 1e-6);
+  ASSERT_GT(out.size(), 100u);
+  for (const FixedTriangle& t : listed(out)) ASSERT_NEAR(t.screen_area, 25.0 / 2500, 1e-6);
   // Level ahead from just above the ground: triangles with a corner behind the near plane have no area.
   ASSERT_TRUE(mesh.update(View::look({1, 2, 1}, 0, 0, 1.0, {1600, 800}, 4.5, 1000)).has_value());
   out = collect(mesh, {11, 400, 1, true});
   int infinite = 0;
-  for (const FixedTriangle& t : out.triangles) {
+  for (const FixedTriangle& t : listed(out)) {
     const double rear = std::min({t.apex.x, t.apex.x + t.to_left.x, t.apex.x + t.to_right.x});
     ASSERT_EQ(std::isinf(t.screen_area), rear < 5.5);
     infinite += std::isinf(t.screen_area);
   }
   EXPECT_GT(infinite, 0);
-  EXPECT_LT(infinite, int(out.triangles.size()));
+  EXPECT_LT(infinite, int(out.size()));
 }
 
 TEST(FixedLevel, DistanceIsThatOfTheNearestPoint) {
@@ -365,9 +371,9 @@ TEST(FixedLevel, DistanceIsThatOfTheNearestPoint) {
   const View view = low_view(*terrain.field, 2, 4);
   ASSERT_TRUE(mesh.update(view).has_value());
   const FixedTriangles out = collect(mesh, {12, 150, 1, false});
-  ASSERT_GT(out.triangles.size(), 20u);
+  ASSERT_GT(out.size(), 20u);
   constexpr int k_steps = 60;
-  for (const FixedTriangle& t : out.triangles) {
+  for (const FixedTriangle& t : listed(out)) {
     double nearest = 1e30;
     for (int i = 0; i <= k_steps; ++i) {
       for (int k = 0; i + k <= k_steps; ++k) {
@@ -387,9 +393,9 @@ TEST(FixedLevel, SkipsBackFacesBelowTheirCanopy) {
   RoamMesh mesh = make_mesh(terrain, 50);
   // The eye stands under the slope and looks west at it; the plane is 30 m above the eye, 21 m along its normal.
   ASSERT_TRUE(mesh.update(View::look({0, 0, -30}, k_pi, 0, 1.2, {800, 600}, 0.1, 1e4)).has_value());
-  EXPECT_FALSE(collect(mesh, {11, 300, 1, false}).triangles.empty());
-  EXPECT_TRUE(collect(mesh, {11, 300, 1, true}).triangles.empty());
-  EXPECT_FALSE(collect(mesh, {11, 300, 25, true}).triangles.empty());
+  EXPECT_FALSE(collect(mesh, {11, 300, 1, false}).empty());
+  EXPECT_TRUE(collect(mesh, {11, 300, 1, true}).empty());
+  EXPECT_FALSE(collect(mesh, {11, 300, 25, true}).empty());
 }
 
 TEST(FixedLevel, LeavesOutHolesAndPadding) {
@@ -407,7 +413,7 @@ TEST(FixedLevel, LeavesOutHolesAndPadding) {
   const FixedTriangles out = collect(mesh, {sward::level_for_area(field, 12.5), 5000, 1, false});
   const glm::dvec2 low = field.min_corner(), high = field.max_corner();
   double area = 0;
-  for (const FixedTriangle& t : out.triangles) {
+  for (const FixedTriangle& t : listed(out)) {
     const glm::dvec2 centre = glm::dvec2(t.apex) + glm::dvec2(t.to_left + t.to_right) / 3.0;
     ASSERT_TRUE(centre.x > low.x && centre.x < high.x && centre.y > low.y && centre.y < high.y);
     const glm::dvec2 place((centre.x - low.x) / 10, (high.y - centre.y) / 10);

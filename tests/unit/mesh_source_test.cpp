@@ -27,7 +27,7 @@ std::string write_file(const std::string& name, const std::string& text) {
 
 double total_area(const FixedTriangles& out) {
   double area = 0;
-  for (const FixedTriangle& t : out.triangles) area += double(t.area);
+  for (const float each : out.area()) area += double(each);
   return area;
 }
 
@@ -38,13 +38,14 @@ TEST(MeshSource, PiecesCoverTheFaceAndRespectTheArea) {
   source->fixed_level_triangles(view_of_origin(), 0.3f, {}, out);
   EXPECT_NEAR(total_area(out), 18.0, 1e-4);
   std::set<uint64_t> ids;
-  for (const FixedTriangle& t : out.triangles) {
+  for (size_t i = 0; i < out.size(); ++i) {
+    const FixedTriangle t = out[i];
     EXPECT_LE(t.area, 0.3f);
     EXPECT_GT(t.area, 0.1f);
     ids.insert(t.id.bits);
   }
-  EXPECT_EQ(ids.size(), out.triangles.size());
-  EXPECT_EQ(out.triangles.size(), 64u);  // 18 / 64 is the first power of two not above 0.3
+  EXPECT_EQ(ids.size(), out.size());
+  EXPECT_EQ(out.size(), 64u);  // 18 / 64 is the first power of two not above 0.3
 }
 
 TEST(MeshSource, DistanceIsThatOfTheNearestPoint) {
@@ -52,8 +53,8 @@ TEST(MeshSource, DistanceIsThatOfTheNearestPoint) {
   ASSERT_TRUE(source);
   FixedTriangles out;
   source->fixed_level_triangles(view_of_origin(), 100.0f, {}, out);
-  ASSERT_EQ(out.triangles.size(), 1u);
-  EXPECT_NEAR(out.triangles[0].distance, std::hypot(17.0, 5.0), 1e-4);
+  ASSERT_EQ(out.size(), 1u);
+  EXPECT_NEAR(out[0].distance, std::hypot(17.0, 5.0), 1e-4);
 }
 
 TEST(MeshSource, CullsByHorizonFrustumAndFacing) {
@@ -63,13 +64,13 @@ TEST(MeshSource, CullsByHorizonFrustumAndFacing) {
   FixedLevelOptions options;
   options.horizon_m = 10;
   source->fixed_level_triangles(view_of_origin(), 0.3f, options, out);
-  EXPECT_TRUE(out.triangles.empty());
+  EXPECT_TRUE(out.empty());
   const View away = View::look({0, -20, 5}, -1.5707963, -0.2, 1.0, {640, 480}, 0.1, 1000.0);
   source->fixed_level_triangles(away, 0.3f, {}, out);
-  EXPECT_TRUE(out.triangles.empty());
+  EXPECT_TRUE(out.empty());
   const View below = View::look({0, -20, -5}, 1.5707963, 0.2, 1.0, {640, 480}, 0.1, 1000.0);
   source->fixed_level_triangles(below, 0.3f, {}, out);
-  EXPECT_TRUE(out.triangles.empty());
+  EXPECT_TRUE(out.empty());
 }
 
 TEST(MeshSource, ReadsPolygonsFromObjAndDropsDegenerateFaces) {

@@ -90,10 +90,9 @@ inline FixedTriangle level_triangle(const PlaneTriangle& t, double z, glm::dvec3
 /// Level ground of a whole root square, as far as `reach` metres from the eye.
 inline FixedTriangles level_ground(double side, int level, glm::dvec3 eye, double reach) {
   FixedTriangles ground;
-  ground.surface.resize(1);
   for (const PlaneTriangle& t : plane_triangles(side, level)) {
     FixedTriangle fixed = level_triangle(t, 0.0, eye);
-    if (double(fixed.distance) <= reach) ground.triangles.push_back(fixed);
+    if (double(fixed.distance) <= reach) ground.push_back(fixed);
   }
   return ground;
 }

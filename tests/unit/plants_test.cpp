@@ -104,7 +104,11 @@ TEST(Plants, KeepTheirPlacesFarFromTheOrigin) {
   const glm::dvec2 shift(16777216.0, -8388608.0);
   Field there;
   there.triangles = here.triangles;
-  for (FixedTriangle& t : there.triangles.triangles) t.apex += glm::dvec3(shift, 0.0);
+  for (size_t i = 0; i < there.triangles.size(); ++i) {
+    FixedTriangle t = there.triangles[i];
+    t.apex += glm::dvec3(shift, 0.0);
+    there.triangles.set(i, t);
+  }
   ColorMap moved = map;
   moved.min_corner += shift;
   View view = near;
@@ -164,16 +168,18 @@ TEST(Plants, ScreenLawGivesEveryTriangleItsCount) {
   const View view = test::view_at({64.0, -64.0, 1.7});
   const ColorMap map = test::plain_map(k_side, 4, k_green);
   FixedTriangles triangles = test::level_ground(k_side, k_level, view.eye, 20.0);
-  for (size_t i = 0; i < triangles.triangles.size(); ++i) {
-    triangles.triangles[i].screen_area = 0.001f * float(i % 150);
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    FixedTriangle t = triangles[i];
+    t.screen_area = 0.001f * float(i % 150);
+    triangles.set(i, t);
   }
   Seeding seeding;
   seed(layer, view, map, triangles, seeding);
   std::map<uint64_t, uint32_t> counted;
   for (const Plant& p : grow_plants(layer, view, map, triangles, seeding)) ++counted[p.triangle.bits];
-  for (size_t i = 0; i < triangles.triangles.size(); ++i) {
+  for (size_t i = 0; i < triangles.size(); ++i) {
     const uint32_t expected = std::min(uint32_t(i % 150) * 2u, 200u);
-    EXPECT_NEAR(counted[triangles.triangles[i].id.bits], expected, i % 150 == 0 ? 0 : 1) << i;
+    EXPECT_NEAR(counted[triangles.id()[i].bits], expected, i % 150 == 0 ? 0 : 1) << i;
   }
 }
 
@@ -344,14 +350,14 @@ TEST(Plants, OfTheFirstClusterStandWhereEquations23To25PutThem) {
   Layer layer = meadow_layer(60.0f);
   layer.species.resize(1);
   const Field field = grow(layer, test::plain_map(k_side, 4, k_green), test::view_at({64.0, -64.0, 1.7}));
-  std::map<uint64_t, const FixedTriangle*> by_id;
-  for (const FixedTriangle& t : field.triangles.triangles) by_id[t.id.bits] = &t;
+  std::map<uint64_t, FixedTriangle> by_id;
+  for (size_t i = 0; i < field.triangles.size(); ++i) by_id[field.triangles.id()[i].bits] = field.triangles[i];
   int checked = 0;
   for (const Plant& p : field.plants) {
     if (p.rank >= 8) continue;
     auto [r1, r2] = philox_uniforms(p.rank, p.triangle.bits);
     if (r1 + r2 >= 1.0) std::tie(r1, r2) = std::pair{1.0 - r2, 1.0 - r1};
-    const FixedTriangle& t = *by_id.at(p.triangle.bits);
+    const FixedTriangle& t = by_id.at(p.triangle.bits);
     const glm::dvec3 expected = t.apex + r1 * glm::dvec3(t.to_left) + r2 * glm::dvec3(t.to_right);
     ASSERT_NEAR(p.position.x, expected.x, 1e-6);
     ASSERT_NEAR(p.position.y, expected.y, 1e-6);
@@ -384,11 +390,10 @@ TEST(Plants, StandInEveryClusterSize) {
 
 TEST(SurfaceHeight, FollowsTheDrawnSurface) {
   FixedTriangles triangles;
-  triangles.surface.resize(3);
-  triangles.surface_z = 1000.0;
+  triangles.set_surface_z(1000.0);
   // The middle of left-right stands at 1010, and below child 1 (m, right, apex) that of right-apex at 1020.
-  triangles.surface[1] = {10.0f, {0, 2}, 0};
-  triangles.surface[2] = {20.0f, {0, 0}, 0};
+  triangles.add_node({10.0f, {0, 2}, 0});
+  triangles.add_node({20.0f, {0, 0}, 0});
   FixedTriangle t;
   t.apex = {5.0, 5.0, 1000.0};
   t.to_left = {0, -2, 4};
@@ -409,14 +414,15 @@ TEST(SurfaceHeight, IsWherePlantsStand) {
   const View view = test::view_at({64.0, -64.0, 61.7});
   FixedTriangles triangles = test::level_ground(k_side, k_level, {64.0, -64.0, 1.7}, 30.0);
   // A slope: z = 60 + x / 4, and everything refined once without a change, then lifted by a metre in the middle.
-  triangles.surface_z = 10.0;
-  for (FixedTriangle& t : triangles.triangles) {
+  triangles.set_surface_z(10.0);
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    FixedTriangle t = triangles[i];
     t.apex.z = 44.0 + t.apex.x / 4.0;
     t.to_left.z = t.to_left.x / 4.0f;
     t.to_right.z = t.to_right.x / 4.0f;
-    t.surface = uint32_t(triangles.surface.size());
     const double middle = t.apex.z + 0.5 * double(t.to_left.z + t.to_right.z);
-    triangles.surface.push_back({float(middle + 1.0 - 10.0), {0, 0}, 0});
+    t.surface = triangles.add_node({float(middle + 1.0 - 10.0), {0, 0}, 0});
+    triangles.set(i, t);
   }
   const ColorMap map = test::plain_map(k_side, 4, k_green);
   Seeding seeding;

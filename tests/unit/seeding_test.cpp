@@ -126,14 +126,13 @@ FixedTriangles random_triangles(int count, uint32_t key) {
   std::mt19937 random(key);
   std::uniform_real_distribution<float> distance(0.0f, 120.0f), area(0.5f, 3.0f);
   FixedTriangles triangles;
-  triangles.surface.resize(1);
   for (int i = 0; i < count; ++i) {
     FixedTriangle t = triangle_at(area(random), distance(random));
     t.apex = {double(i), -1.0, 3.0};
     t.to_left = {0, -1, 0};
     t.to_right = {1, 0, 0};
     t.id.bits = (uint64_t(24) << 58) + uint64_t(i);
-    triangles.triangles.push_back(t);
+    triangles.push_back(t);
   }
   return triangles;
 }
@@ -151,7 +150,7 @@ TEST(Seed, PutsEveryTriangleIntoTheBinOfItsCount) {
   Seeding seeding;
   seed(layer, test::view_at({0, 0, 0}), map, triangles, seeding);
   const auto edges = bin_edges(seeding.n_min, seeding.n_max);
-  std::vector<bool> seen(triangles.triangles.size(), false);
+  std::vector<bool> seen(triangles.size(), false);
   uint32_t next = 0, clusters = 0;
   float largest = 0.0f, smallest = 1e9f;
   for (int i = 0; i < k_density_bins; ++i) {
@@ -163,7 +162,7 @@ TEST(Seed, PutsEveryTriangleIntoTheBinOfItsCount) {
     EXPECT_EQ(bin.clusters, bin.triangles == 0 ? 0u : uint32_t(std::ceil(upper / 8.0f)));
     for (uint32_t r = bin.first; r < bin.first + bin.triangles; ++r) {
       const TriangleRecord& record = seeding.records[r];
-      const FixedTriangle& t = triangles.triangles[seeding.source[r]];
+      const FixedTriangle t = triangles[seeding.source[r]];
       EXPECT_FALSE(seen[seeding.source[r]]);
       seen[seeding.source[r]] = true;
       EXPECT_EQ(record.id_low, t.id.low());
@@ -179,13 +178,13 @@ TEST(Seed, PutsEveryTriangleIntoTheBinOfItsCount) {
   EXPECT_EQ(clusters, seeding.clusters);
   EXPECT_EQ(largest, seeding.n_max);
   EXPECT_EQ(smallest, seeding.n_min);
-  for (size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], triangles.triangles[i].distance <= 100.0f) << i;
+  for (size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], triangles.distance()[i] <= 100.0f) << i;
 }
 
 TEST(Seed, OneCountFillsOneBin) {
   const Layer layer = law_layer(DensityLaw::distance, 50.0f);
   FixedTriangles triangles;
-  triangles.triangles.assign(9, triangle_at(2.0f, 1.0f));
+  for (int i = 0; i < 9; ++i) triangles.push_back(triangle_at(2.0f, 1.0f));
   Seeding seeding;
   seed(layer, test::view_at({0, 0, 0}), test::plain_map(1.0, 1, {}), triangles, seeding);
   EXPECT_EQ(seeding.n_min, 100.0f);
@@ -207,7 +206,11 @@ TEST(Seed, NothingInSightIsNothingSubmitted) {
   Seeding seeding;
   seed(layer, test::view_at({0, 0, 0}), test::plain_map(1.0, 1, {}), triangles, seeding);
   ASSERT_GT(seeding.records.size(), 0u);
-  for (FixedTriangle& t : triangles.triangles) t.distance = 1000.0f;
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    FixedTriangle t = triangles[i];
+    t.distance = 1000.0f;
+    triangles.set(i, t);
+  }
   seed(layer, test::view_at({0, 0, 0}), test::plain_map(1.0, 1, {}), triangles, seeding);
   EXPECT_EQ(seeding.records.size(), 0u);
   EXPECT_EQ(seeding.clusters, 0u);
@@ -222,16 +225,16 @@ TEST(Seed, RecordsAreRelativeToTheEyeAndTheMap) {
   ColorMap map = test::plain_map(100.0, 50, {});
   map.min_corner = {1.0e7, 2.0e7};
   FixedTriangles triangles;
-  triangles.surface_z = 500.0;
+  triangles.set_surface_z(500.0);
   FixedTriangle t = triangle_at(2.0f, 3.0f);
   t.apex = {1.0e7 + 25.5, 2.0e7 + 69.5, 520.25};
   t.to_left = {-1, 0, 0.5f};
   t.to_right = {0, -2, 0.25f};
   t.id.bits = 0x123456789abcdef0;
   t.surface = 7;
-  triangles.surface.resize(8);
-  triangles.surface[7].z = 20.0f;
-  triangles.triangles.push_back(t);
+  for (int i = 1; i < 7; ++i) triangles.add_node({});
+  ASSERT_EQ(triangles.add_node({20.0f, {0, 0}, 0}), 7u);
+  triangles.push_back(t);
   Seeding seeding;
   seed(layer, test::view_at({1.0e7 + 20.0, 2.0e7 + 70.0, 522.0}), map, triangles, seeding);
   ASSERT_EQ(seeding.records.size(), 1u);
@@ -253,8 +256,9 @@ TEST(Seed, RecordsAreRelativeToTheEyeAndTheMap) {
 TEST(Seed, ApexFarFromTheMapStaysOutside) {
   const Layer layer = law_layer(DensityLaw::distance, 50.0f);
   FixedTriangles triangles;
-  triangles.triangles.push_back(triangle_at(2.0f, 3.0f));
-  triangles.triangles[0].apex = {1.0e15, -1.0e15, 0.0};
+  FixedTriangle t = triangle_at(2.0f, 3.0f);
+  t.apex = {1.0e15, -1.0e15, 0.0};
+  triangles.push_back(t);
   Seeding seeding;
   seed(layer, test::view_at({0, 0, 0}), test::plain_map(1.0, 16, {}), triangles, seeding);
   ASSERT_EQ(seeding.records.size(), 1u);
@@ -265,14 +269,13 @@ TEST(Seed, ApexFarFromTheMapStaysOutside) {
 TEST(Seed, FinerGroundThatComesNearerGetsMoreSeeds) {
   const Layer layer = law_layer(DensityLaw::distance, 50.0f);
   FixedTriangles triangles;
-  triangles.surface.resize(3);
   FixedTriangle t = triangle_at(2.0f, 20.0f);
   t.to_left = {2, 0, 0};
   t.to_right = {0, 2, 0};
   t.surface = 1;
-  triangles.surface[1] = {0.0f, {0, 2}, 0};
-  triangles.surface[2] = {10.0f, {0, 0}, 0};
-  triangles.triangles.push_back(t);
+  triangles.add_node({0.0f, {0, 2}, 0});
+  triangles.add_node({10.0f, {0, 0}, 0});
+  triangles.push_back(t);
   Seeding seeding;
   seed(layer, test::view_at({0, 0, 20}), test::plain_map(1.0, 1, {}), triangles, seeding);
   ASSERT_EQ(seeding.records.size(), 1u);

@@ -2,232 +2,301 @@
 // SPDX-License-Identifier: MIT
 
 // Section 3.1 of Papavasiliou, "Real-Time Grass (and Other Procedural Objects) on Terrain" (2015): the mesh's own
-// hierarchy is culled and cut at one level; leaves above that level are split flat. Distances to the halfspaces of the
-// frustum are linear, so below a leaf they are interpolated like the coordinates.
+// hierarchy is culled and cut at one level; leaves above that level are split flat. Departures: the walk ends at chunks
+// of 64 triangles, which are kept from frame to frame and tested side by side; canopy and bound are added in the tests,
+// not to the mesh's error metric.
 #include "fixed_level.h"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <cmath>
-#include <limits>
+#include <cstddef>
+#include <cstring>
+#include <optional>
+#include <thread>
 
-#include "roam_projection.h"
+#include "fixed_level_kernel.h"
+#include "worker_pool.h"
 
 namespace sward::roam {
 
 namespace {
 
-// Nearest point of the triangle (0, ab, ac) + a to the origin: inside, on an edge or at a corner, by the signs of the
-// barycentric coordinates of the projection.
-double squared_distance_to_edge(glm::dvec3 a, glm::dvec3 ab) {
-  const double length2 = glm::dot(ab, ab);
-  const double t = length2 > 0 ? std::clamp(-glm::dot(a, ab) / length2, 0.0, 1.0) : 0.0;
-  const glm::dvec3 p = a + t * ab;
-  return glm::dot(p, p);
+// Frames that a chunk out of sight is kept for.
+constexpr uint64_t k_frames_kept = 60;
+// Chunks that are worth a thread of their own: some 0.1 ms of work.
+constexpr size_t k_chunks_a_thread = 96;
+
+bool same(const View& a, const View& b) {
+  return a.eye == b.eye && a.eye_from_world == b.eye_from_world && a.clip_from_eye == b.clip_from_eye &&
+         a.viewport == b.viewport;
 }
 
-double distance_to_triangle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
-  const glm::dvec3 ab = b - a, ac = c - a, normal = glm::cross(ab, ac);
-  const double area2 = glm::dot(normal, normal);
-  const double to_b = glm::dot(glm::cross(ac, a), normal), to_c = glm::dot(glm::cross(a, ab), normal);
-  if (to_b >= 0 && to_c >= 0 && to_b + to_c <= area2) return std::abs(glm::dot(a, normal)) / std::sqrt(area2);
-  return std::sqrt(
-      std::min({squared_distance_to_edge(a, ab), squared_distance_to_edge(a, ac), squared_distance_to_edge(b, c - b)}));
+bool same(const FixedLevelOptions& a, const FixedLevelOptions& b) {
+  return a.level == b.level && a.horizon_m == b.horizon_m && a.canopy_m == b.canopy_m &&
+         a.skip_back_faces == b.skip_back_faces;
 }
 
-// A corner on the drawn surface.
-struct Corner {
-  LatticePoint lattice{0};
-  glm::dvec3 world{0};
-  std::array<double, 6> plane{};  // distances to the halfspaces
+bool meet(const LatticeBox& a, const LatticeBox& b) {
+  return !b.empty() && a.first.x <= b.last.x && b.first.x <= a.last.x && a.first.y <= b.last.y && b.first.y <= a.last.y;
+}
+
+// Copies the elements that `mask` names to the front of `to`, run by run.
+template <class T>
+void pack(const std::array<T, k_chunk_size>& from, uint64_t mask, T* to) {
+  for (uint64_t rest = mask; rest != 0;) {
+    const int first = std::countr_zero(rest), length = std::countr_one(rest >> first);
+    std::memcpy(to, from.data() + first, size_t(length) * sizeof(T));
+    to += length;
+    if (first + length == 64) return;
+    rest &= ~uint64_t(0) << (first + length);
+  }
+}
+
+// The next chunk's data are fetched while one is worked on: between frames they leave the fast caches.
+void prefetch(const Chunk& chunk) {
+  const char* const begin = reinterpret_cast<const char*>(&chunk);
+  const size_t size = chunk.flat ? offsetof(Chunk, bound) : sizeof(Chunk);
+  for (size_t at = 0; at < size; at += 64) __builtin_prefetch(begin + at);
+}
+
+// Where a chunk's share of the output begins.
+struct Offset {
+  size_t triangle = 0, node = 1;
 };
 
-struct Triangle {
-  TriangleId id;
-  Corner apex, left, right;
-  Cover cover = Cover::inside;
+struct KeptChunk {
+  uint64_t key;
+  uint64_t seen;  // the frame that visited it last
+  Chunk* chunk;
 };
 
-class Collector {
+class Memory final : public FixedTrianglesMemory {
  public:
-  Collector(const RoamTree& tree, const View& view, const FixedLevelOptions& options, FixedTriangles& out);
-  void run();
+  void collect(const RoamTree& tree, const View& view, const FixedLevelOptions& options, const SurfaceState& surface,
+               FixedTriangles& out);
 
  private:
-  static constexpr unsigned k_all_planes = 0x3f;
+  void forget_changed(const SurfaceState& surface, int level);
+  bool match_chunks();
+  Chunk* acquire();
+  void keep_or_release(const KeptChunk& kept);
+  bool refresh(const FixedLevelWalk& walk, size_t i);
+  void write_in_order(const ChunkKernel& kernel, FixedTriangles& out);
+  void write_side_by_side(const ChunkKernel& kernel, FixedTriangles& out);
+  void write_chunk(size_t i, const ChunkResult& result, Offset at, const FixedTriangles::Writer& to) const;
+  void write_nodes(const Chunk& chunk, const ChunkResult& result, Offset at, const FixedTriangles::Writer& to) const;
+  Offset share(const Chunk& chunk, const ChunkResult& result) const;
+  int parts() const;
+  template <class Work>
+  void for_chunks(Work&& work);
 
-  Corner corner(uint32_t vertex) const;
-  Corner middle(const Corner& a, const Corner& b) const;
-  bool culled(const Triangle& t, double bound, unsigned& active) const;
-  bool beyond_horizon(const Triangle& t, double bound) const;
-  bool faces_away(const Triangle& t) const;
-  bool all_holes(const Triangle& t) const;
-  float screen_area(const Triangle& t) const;
-  void visit(uint32_t node, const Triangle& t, unsigned active);
-  void split_flat(const Triangle& t, unsigned active);
-  void emit(const Triangle& t, uint32_t split_node);
-  uint32_t refine(uint32_t node);
+  // What the last call was about.
+  std::optional<View> view_;
+  FixedLevelOptions options_;
+  SurfaceState surface_;
+  uint64_t contents_ = 0;  // of `out` after it
 
-  const RoamTree& tree_;
-  const Surface& surface_;
-  const Lattice& lattice_;
-  const View& view_;
-  const FixedLevelOptions& options_;
-  FixedTriangles& out_;
-  std::array<Plane, 6> planes_;
-  glm::dmat4 clip_;
-  double horizon2_ = 0;
-  double level_area_ = 0;  // horizontal, square metres
+  std::vector<ChunkVisit> visits_;
+  std::vector<Chunk*> chunks_;        // of the visits
+  std::vector<ChunkResult> results_;  // of the visits, where several threads work
+  std::vector<Offset> offsets_;
+  int depth_ = 0;
+  double surface_z_ = 0;
+
+  uint64_t frame_ = 1;
+  std::vector<std::unique_ptr<Chunk>> storage_;
+  std::vector<KeptChunk> kept_, merged_;  // by key
+  std::vector<Chunk*> free_;
+  WorkerPool pool_;
 };
 
-Collector::Collector(const RoamTree& tree, const View& view, const FixedLevelOptions& options, FixedTriangles& out)
-    : tree_(tree),
-      surface_(tree.surface()),
-      lattice_(tree.lattice()),
-      view_(view),
-      options_(options),
-      out_(out),
-      planes_(frustum_planes(view)),
-      clip_(view.clip_from_relative()),
-      horizon2_(double(options.horizon_m) * options.horizon_m) {
-  const double cells = double(int64_t(1) << lattice_.root_bits);
-  level_area_ = std::ldexp(0.5 * cells * cells * lattice_.spacing.x * lattice_.spacing.y, -options.level);
-}
-
-void Collector::run() {
-  out_.surface_z = std::round(view_.eye.z);
-  for (uint32_t root = 0; root < tree_.root_count(); ++root) {
-    const Corners& c = tree_.corner[root];
-    visit(root, {tree_.id[root], corner(c.apex), corner(c.left), corner(c.right), tree_.cover[root]}, k_all_planes);
-  }
-}
-
-Corner Collector::corner(uint32_t vertex) const {
-  Corner c;
-  c.lattice = tree_.vertices.lattice[vertex];
-  c.world = tree_.vertices.world[vertex];
-  for (int i = 0; i < 6; ++i) c.plane[i] = glm::dot(planes_[i].n, c.world - view_.eye) + planes_[i].d;
-  return c;
-}
-
-Corner Collector::middle(const Corner& a, const Corner& b) const {
-  Corner m;
-  m.lattice = a.lattice + (b.lattice - a.lattice) / 2;
-  m.world = glm::dvec3(lattice_.world_xy(m.lattice), 0.5 * (a.world.z + b.world.z));
-  for (int i = 0; i < 6; ++i) m.plane[i] = 0.5 * (a.plane[i] + b.plane[i]);
-  return m;
-}
-
-// What stands on the surface reaches `canopy_m` up from it, the surface lies within `bound` of the triangle. Halfspaces
-// that hold all of it are taken out of `active`.
-bool Collector::culled(const Triangle& t, double bound, unsigned& active) const {
-  if (t.cover == Cover::padding || beyond_horizon(t, bound)) return true;
-  for (int i = 0; i < 6; ++i) {
-    if (!(active >> i & 1)) continue;
-    const double a = t.apex.plane[i], b = t.left.plane[i], c = t.right.plane[i];
-    const double up = planes_[i].n.z, reach = bound * std::abs(up);
-    if (std::max({a, b, c}) + reach + std::max(up, 0.0) * options_.canopy_m < 0) return true;
-    if (std::min({a, b, c}) - reach + std::min(up, 0.0) * options_.canopy_m >= 0) active &= ~(1u << i);
-  }
-  return false;
-}
-
-bool Collector::beyond_horizon(const Triangle& t, double bound) const {
-  const glm::dvec3 a = t.apex.world, b = t.left.world, c = t.right.world;
-  glm::dvec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
-  low.z -= bound;
-  high.z += bound + options_.canopy_m;
-  const glm::dvec3 gap = view_.eye - glm::clamp(view_.eye, low, high);
-  return glm::dot(gap, gap) > horizon2_;
-}
-
-bool Collector::faces_away(const Triangle& t) const {
-  if (!options_.skip_back_faces) return false;
-  const glm::dvec3 normal = glm::cross(t.left.world - t.apex.world, t.right.world - t.apex.world);
-  return glm::dot(normal, view_.eye - t.apex.world) < -double(options_.canopy_m) * glm::length(normal);
-}
-
-// Whether no sample in the triangle's rectangle is valid; such a triangle is smaller than the hole it lies in.
-bool Collector::all_holes(const Triangle& t) const {
-  const LatticePoint a = t.apex.lattice, b = t.left.lattice, c = t.right.lattice;
-  return surface_.all_holes({glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))});
-}
-
-float Collector::screen_area(const Triangle& t) const {
-  const double aspect = double(view_.viewport.x) / view_.viewport.y;
-  glm::dvec2 p[3];
-  const Corner* corners[3] = {&t.apex, &t.left, &t.right};
-  for (int i = 0; i < 3; ++i) {
-    const glm::dvec4 clip = clip_ * glm::dvec4(corners[i]->world - view_.eye, 1.0);
-    if (corners[i]->plane[4] < 0 || clip.w <= 0) return std::numeric_limits<float>::infinity();
-    p[i] = glm::dvec2(clip.x * aspect, clip.y) / clip.w;
-  }
-  const glm::dvec2 u = p[1] - p[0], v = p[2] - p[0];
-  return float(0.5 * std::abs(u.x * v.y - u.y * v.x));
-}
-
-void Collector::visit(uint32_t node, const Triangle& t, unsigned active) {
-  const bool leaf = tree_.is_leaf(node);
-  if (culled(t, leaf ? 0.0 : tree_.corner[node].bound, active)) return;
-  if (leaf) {
-    if (!faces_away(t)) split_flat(t, active);
-  } else if (t.id.level() == options_.level) {
-    if (!faces_away(t)) emit(t, node);
+void Memory::collect(const RoamTree& tree, const View& view, const FixedLevelOptions& options,
+                     const SurfaceState& surface, FixedTriangles& out) {
+  forget_changed(surface, options.level);
+  const bool holds_this_view = contents_ == out.contents() && view_ && same(*view_, view) && same(options_, options);
+  view_ = view;
+  options_ = options;
+  depth_ = std::min(options.level, k_chunk_depth);
+  const FixedLevelWalk walk(tree, *view_, options_);
+  walk.run(options.level - depth_, visits_);
+  const bool same_chunks = match_chunks();
+  const bool still = holds_this_view && same_chunks;
+  std::atomic<bool> changed = false;
+  for_chunks([&](size_t i) {
+    if (refresh(walk, i)) changed.store(true, std::memory_order_relaxed);
+  });
+  if (still && !changed) return;
+  const ChunkKernel kernel(walk);
+  surface_z_ = std::round(view.eye.z);
+  out.set_surface_z(surface_z_);
+  if (parts() == 1) {
+    write_in_order(kernel, out);
   } else {
-    const uint32_t child = tree_.child[node];
-    const Corner m = corner(tree_.corner[child].apex);
-    visit(child, {tree_.id[child], m, t.apex, t.left, tree_.cover[child]}, active);
-    visit(child + 1, {tree_.id[child + 1], m, t.right, t.apex, tree_.cover[child + 1]}, active);
+    write_side_by_side(kernel, out);
+  }
+  contents_ = out.contents();
+}
+
+void Memory::forget_changed(const SurfaceState& surface, int level) {
+  const bool known = surface.epoch != 0 && surface_.epoch != 0 && level == options_.level;
+  if (known && surface.epoch == surface_.epoch) return;
+  const bool local = known && surface.epoch == surface_.epoch + 1;
+  for (const KeptChunk& kept : kept_)
+    if (!local || meet(kept.chunk->box, surface.changed)) kept.chunk->has_static = kept.chunk->has_drawn = false;
+  surface_ = surface;
+}
+
+// Finds the visits' chunks among those kept, both in the order of their keys. True if they are those of the last call.
+bool Memory::match_chunks() {
+  const size_t before = chunks_.size();
+  bool same_as_before = before == visits_.size();
+  ++frame_;
+  chunks_.clear();
+  merged_.clear();
+  size_t next = 0;
+  for (const ChunkVisit& visit : visits_) {
+    while (next < kept_.size() && kept_[next].key < visit.key) keep_or_release(kept_[next++]);
+    const bool found = next < kept_.size() && kept_[next].key == visit.key;
+    same_as_before &= found && kept_[next].seen + 1 == frame_;
+    Chunk* const chunk = found ? kept_[next++].chunk : acquire();
+    __builtin_prefetch(chunk);
+    chunks_.push_back(chunk);
+    merged_.push_back({visit.key, frame_, chunk});
+  }
+  while (next < kept_.size()) keep_or_release(kept_[next++]);
+  kept_.swap(merged_);
+  return same_as_before;
+}
+
+Chunk* Memory::acquire() {
+  if (free_.empty()) {
+    storage_.push_back(std::make_unique<Chunk>());
+    free_.push_back(storage_.back().get());
+  }
+  Chunk* chunk = free_.back();
+  free_.pop_back();
+  chunk->has_static = chunk->has_drawn = false;
+  return chunk;
+}
+
+void Memory::keep_or_release(const KeptChunk& kept) {
+  if (kept.seen + k_frames_kept >= frame_) {
+    merged_.push_back(kept);
+  } else {
+    free_.push_back(kept.chunk);
   }
 }
 
-// `t` lies in the plane of a leaf and has been culled against `active`.
-void Collector::split_flat(const Triangle& t, unsigned active) {
-  if (t.id.level() == options_.level) return emit(t, k_none);
-  const Corner m = middle(t.left, t.right);
-  for (int turn = 0; turn < 2; ++turn) {
-    Triangle child{t.id.child(turn), m, turn == 0 ? t.apex : t.right, turn == 0 ? t.left : t.apex, Cover::inside};
-    child.cover = cover_of(lattice_, {child.apex.lattice, child.left.lattice, child.right.lattice}, t.cover);
-    unsigned still_active = active;
-    if (!culled(child, 0.0, still_active)) split_flat(child, still_active);
+bool Memory::refresh(const FixedLevelWalk& walk, size_t i) {
+  Chunk& chunk = *chunks_[i];
+  const bool changed = !chunk.has_static;
+  if (changed) build_static(walk, visits_[i], depth_, chunk);
+  return refresh_drawn(walk.tree(), visits_[i], depth_, chunk) || changed;
+}
+
+int Memory::parts() const {
+  const auto threads = options_.threads > 0 ? size_t(options_.threads) : std::thread::hardware_concurrency();
+  return int(std::clamp<size_t>(visits_.size() / k_chunks_a_thread, 1, std::max<size_t>(threads, 1)));
+}
+
+// Each thread takes a run of chunks.
+template <class Work>
+void Memory::for_chunks(Work&& work) {
+  const auto count = size_t(parts());
+  pool_.run(int(count), [&](int part) {
+    const size_t end = visits_.size() * size_t(part + 1) / count;
+    for (size_t i = visits_.size() * size_t(part) / count; i < end; ++i) work(i);
+  });
+}
+
+// What a chunk adds to the output.
+Offset Memory::share(const Chunk& chunk, const ChunkResult& result) const {
+  Offset share{size_t(std::popcount(result.visible)), 0};
+  if (chunk.nodes.empty()) return share;
+  for (uint64_t rest = result.visible; rest != 0; rest &= rest - 1)
+    share.node += chunk.node_count[size_t(std::countr_zero(rest))];
+  return share;
+}
+
+// One thread: each chunk is written as soon as it is measured, into room for all of them.
+void Memory::write_in_order(const ChunkKernel& kernel, FixedTriangles& out) {
+  size_t most_nodes = 1;
+  for (const Chunk* chunk : chunks_) most_nodes += chunk->nodes.size();
+  const FixedTriangles::Writer to = out.write(chunks_.size() * k_chunk_size, most_nodes);
+  Offset next;
+  ChunkResult result;
+  for (size_t i = 0; i < chunks_.size(); ++i) {
+    if (i + 1 < chunks_.size()) prefetch(*chunks_[i + 1]);
+    kernel.evaluate(visits_[i], depth_, *chunks_[i], result);
+    write_chunk(i, result, next, to);
+    const Offset own = share(*chunks_[i], result);
+    next = {next.triangle + own.triangle, next.node + own.node};
+  }
+  out.write(next.triangle, next.node);
+}
+
+// Several threads: all chunks are measured, then their places are known.
+void Memory::write_side_by_side(const ChunkKernel& kernel, FixedTriangles& out) {
+  if (results_.size() < chunks_.size()) results_.resize(chunks_.size() + chunks_.size() / 2);
+  for_chunks([&](size_t i) { kernel.evaluate(visits_[i], depth_, *chunks_[i], results_[i]); });
+  offsets_.clear();
+  Offset next;
+  for (size_t i = 0; i < chunks_.size(); ++i) {
+    offsets_.push_back(next);
+    const Offset own = share(*chunks_[i], results_[i]);
+    next = {next.triangle + own.triangle, next.node + own.node};
+  }
+  const FixedTriangles::Writer to = out.write(next.triangle, next.node);
+  for_chunks([&](size_t i) { write_chunk(i, results_[i], offsets_[i], to); });
+}
+
+void Memory::write_chunk(size_t i, const ChunkResult& result, Offset at, const FixedTriangles::Writer& to) const {
+  if (result.visible == 0) return;
+  const Chunk& chunk = *chunks_[i];
+  pack(chunk.apex, result.visible, &to.apex[at.triangle]);
+  pack(chunk.to_left, result.visible, &to.to_left[at.triangle]);
+  pack(chunk.to_right, result.visible, &to.to_right[at.triangle]);
+  pack(chunk.area, result.visible, &to.area[at.triangle]);
+  pack(result.screen_area, result.visible, &to.screen_area[at.triangle]);
+  pack(result.distance, result.visible, &to.distance[at.triangle]);
+  const uint64_t first = visits_[i].triangle.id.bits + (uint64_t(depth_) << 58);
+  const int shift = k_max_level - options_.level;
+  TriangleId* id = &to.id[at.triangle];
+  for (uint64_t rest = result.visible; rest != 0; rest &= rest - 1)
+    *id++ = {first | uint64_t(std::countr_zero(rest)) << shift};
+  if (chunk.nodes.empty()) {
+    std::fill_n(&to.surface[at.triangle], std::popcount(result.visible), 0u);
+  } else {
+    write_nodes(chunk, result, at, to);
   }
 }
 
-// `split_node`: the mesh's node where the mesh is finer, else k_none.
-void Collector::emit(const Triangle& t, uint32_t split_node) {
-  const glm::dvec3 a = t.apex.world, b = t.left.world, c = t.right.world;
-  const double distance = distance_to_triangle(a - view_.eye, b - view_.eye, c - view_.eye);
-  if (distance > options_.horizon_m || all_holes(t)) return;
-  FixedTriangle f;
-  f.apex = a;
-  f.to_left = glm::vec3(b - a);
-  f.to_right = glm::vec3(c - a);
-  f.id = t.id;
-  f.surface = split_node == k_none ? 0 : refine(split_node);
-  const glm::dvec2 gradient = surface_.data_gradient(glm::dvec2(a + b + c) / 3.0);
-  f.area = float(level_area_ * std::sqrt(1.0 + glm::dot(gradient, gradient)));
-  f.screen_area = screen_area(t);
-  f.distance = float(distance);
-  out_.triangles.push_back(f);
-}
-
-uint32_t Collector::refine(uint32_t node) {
-  const uint32_t index = uint32_t(out_.surface.size());
-  const uint32_t first = tree_.child[node];
-  const double z = tree_.vertices.world[tree_.corner[first].apex].z;
-  out_.surface.push_back({float(z - out_.surface_z), {0, 0}, 0});
-  for (uint32_t turn = 0; turn < 2; ++turn) {
-    if (!tree_.is_split(first + turn)) continue;
-    const uint32_t below = refine(first + turn);
-    out_.surface[index].child[turn] = below;
+void Memory::write_nodes(const Chunk& chunk, const ChunkResult& result, Offset at,
+                         const FixedTriangles::Writer& to) const {
+  for (uint64_t rest = result.visible; rest != 0; rest &= rest - 1) {
+    const auto j = size_t(std::countr_zero(rest));
+    const auto base = uint32_t(at.node);
+    const auto place = [base](uint32_t child) { return child == 0 ? 0 : base + child; };
+    to.surface[at.triangle++] = chunk.node_count[j] == 0 ? 0 : base;
+    const ChunkNode* node = chunk.nodes.data() + chunk.first_node[j];
+    for (uint32_t k = 0; k < chunk.node_count[j]; ++k, ++node)
+      to.nodes[at.node++] = {float(node->z - surface_z_), {place(node->child[0]), place(node->child[1])}, 0};
   }
-  return index;
 }
 
 }  // namespace
 
 void collect_fixed_level(const RoamTree& tree, const View& view, const FixedLevelOptions& options,
-                         FixedTriangles& out) {
-  Collector(tree, view, options, out).run();
+                         const SurfaceState& surface, FixedTriangles& out) {
+  auto* memory = dynamic_cast<Memory*>(out.memory().get());
+  if (memory == nullptr) {
+    auto fresh = std::make_unique<Memory>();
+    memory = fresh.get();
+    out.memory() = std::move(fresh);
+  }
+  memory->collect(tree, view, options, surface, out);
 }
 
 }  // namespace sward::roam

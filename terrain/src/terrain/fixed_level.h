@@ -8,7 +8,28 @@
 
 namespace sward::roam {
 
-/// Appends the triangles of options.level that a view sees, on the surface of the tree's leaves. `out` is clear.
-void collect_fixed_level(const RoamTree& tree, const View& view, const FixedLevelOptions& options, FixedTriangles& out);
+/// What the surface's static data (areas, holes: all that Surface answers beside heights and bounds) are known to be.
+///
+/// Heights, splits, merges and bounds need no notice: the collection compares what it kept with the tree.
+struct SurfaceState {
+  /// Names the data; never the same for two surfaces or meshes of a process, one more after every change. 0: not known,
+  /// so everything counts as changed.
+  uint64_t epoch = 0;
+  /// Where the data differ from those of epoch - 1. Whoever has seen an older epoch takes everything as changed.
+  LatticeBox changed;
+};
+
+/// Writes the triangles of options.level that a view sees, on the surface of the tree's leaves, to `out`, whatever it
+/// held. Keeps what the next call needs in out.memory(): calls may be missed, trees, views and options may change in
+/// between. Leaves `out` alone when it still holds the answer. The result is a function of the arguments alone, not of
+/// the calls before or the number of threads.
+void collect_fixed_level(const RoamTree& tree, const View& view, const FixedLevelOptions& options,
+                         const SurfaceState& surface, FixedTriangles& out);
+
+/// The same, with static data that count as changed.
+inline void collect_fixed_level(const RoamTree& tree, const View& view, const FixedLevelOptions& options,
+                                FixedTriangles& out) {
+  collect_fixed_level(tree, view, options, SurfaceState{}, out);
+}
 
 }  // namespace sward::roam

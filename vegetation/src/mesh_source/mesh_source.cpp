@@ -98,7 +98,7 @@ struct Emitter {
     triangle.area = float(area);
     triangle.screen_area = projected_area(view, p);
     triangle.distance = float(distance_to_triangle(p));
-    out.triangles.push_back(triangle);
+    out.push_back(triangle);
   }
 
   // Depth is at most k_max_turns, so recursion is bounded.

@@ -57,7 +57,7 @@ Choice choose_plant(const Ground& ground, const TriangleRecord& record, vec2 off
 /// Descends the drawn surface below a triangle; `z_offset` is added to the nodes' heights.
 float walk_surface(const FixedTriangles& triangles, uint32_t node, float z_offset, SurfaceWalk walk) {
   while (node != 0) {
-    const SurfaceNode& split = triangles.surface[node];
+    const SurfaceNode& split = triangles.nodes()[node];
     node = split.child[walk_turn(walk)];
     walk = walk_down(walk, split.z + z_offset);
   }
@@ -130,7 +130,7 @@ class Grower {
 
 double surface_height(const FixedTriangles& triangles, const FixedTriangle& triangle, float a, float b) {
   const SurfaceWalk walk = begin_walk(0.0f, triangle.to_left.z, triangle.to_right.z, vec2(a, b));
-  const float z_offset = float(triangles.surface_z - triangle.apex.z);
+  const float z_offset = float(triangles.surface_z() - triangle.apex.z);
   return triangle.apex.z + double(walk_surface(triangles, triangle.surface, z_offset, walk));
 }
 
@@ -141,9 +141,10 @@ std::vector<Plant> grow_plants(const Layer& layer, const View& view, const Color
   std::vector<Plant> plants;
   for (const DensityBin& bin : seeding.bins) {
     for (uint32_t i = bin.first; i < bin.first + bin.triangles; ++i) {
-      SWARD_ASSERT(seeding.source[i] < triangles.triangles.size(), "the seeding comes from other triangles");
+      SWARD_ASSERT(seeding.source[i] < triangles.size(), "the seeding comes from other triangles");
       const TriangleRecord& record = seeding.records[i];
-      Grower grower(ground, triangles, triangles.triangles[seeding.source[i]], record, plants);
+      const FixedTriangle triangle = triangles[seeding.source[i]];
+      Grower grower(ground, triangles, triangle, record, plants);
       for (uint32_t cluster = 0; cluster < bin.clusters && cluster * cluster_size < record.submitted; ++cluster) {
         grower.grow_cluster(cluster, cluster_size);
       }

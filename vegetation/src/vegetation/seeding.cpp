@@ -60,18 +60,20 @@ struct SurfaceCorner {
   uint32_t node;
 };
 
-/// How far the drawn surface leaves the triangle's plane, metres, up or down.
-float surface_deviation(const FixedTriangles& triangles, const FixedTriangle& triangle) {
+/// How far the drawn surface leaves the plane of triangle i, metres, up or down.
+float surface_deviation(const FixedTriangles& triangles, size_t i) {
   SurfaceCorner stack[64];
   int size = 0;
   float deviation = 0.0f;
-  const double base = triangles.surface_z - triangle.apex.z;
-  stack[size++] = {{0.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, 1.0f}, triangle.surface};
+  const std::span<const SurfaceNode> nodes = triangles.nodes();
+  const double base = triangles.surface_z() - triangles.apex()[i].z;
+  const float left = triangles.to_left()[i].z, right = triangles.to_right()[i].z;
+  stack[size++] = {{0.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, 1.0f}, triangles.surface()[i]};
   while (size > 0) {
     const SurfaceCorner at = stack[--size];
-    const SurfaceNode& node = triangles.surface[at.node];
+    const SurfaceNode& node = nodes[at.node];
     const glm::vec2 middle = 0.5f * (at.left + at.right);
-    const float plane = middle.x * triangle.to_left.z + middle.y * triangle.to_right.z;
+    const float plane = middle.x * left + middle.y * right;
     deviation = std::max(deviation, std::abs(float(double(node.z) + base) - plane));
     SWARD_ASSERT(size + 2 <= 64, "a triangle's drawn surface is deeper than any bintree");
     if (node.child[0] != 0) stack[size++] = {middle, at.apex, at.left, node.child[0]};
@@ -81,9 +83,18 @@ float surface_deviation(const FixedTriangles& triangles, const FixedTriangle& tr
 }
 
 /// A bound from below: where the mesh is finer than the triangle, seeds stand off its plane.
-float nearest_seed(const FixedTriangles& triangles, const FixedTriangle& triangle) {
-  if (triangle.surface == 0) return triangle.distance;
-  return std::max(triangle.distance - surface_deviation(triangles, triangle), 0.0f);
+float nearest_seed(const FixedTriangles& triangles, size_t i) {
+  const float distance = triangles.distance()[i];
+  return triangles.surface()[i] == 0 ? distance : std::max(distance - surface_deviation(triangles, i), 0.0f);
+}
+
+/// limit_at() of triangle i for its nearest seed. The first two laws read three columns, so nothing is gathered.
+float limit_of(const Layer& layer, const View& view, float zoom, const FixedTriangles& triangles, size_t i) {
+  const float distance = nearest_seed(triangles, i);
+  if (!(distance <= layer.horizon_m * zoom)) return 0.0f;
+  if (layer.law == DensityLaw::distance) return distance_law(layer, zoom, triangles.area()[i], distance);
+  if (layer.law == DensityLaw::screen_area) return screen_law(layer, triangles.screen_area()[i]);
+  return limit_at(layer, view, zoom, triangles[i], distance);
 }
 
 /// Seeds of every triangle; their smallest and largest number goes to n_min and n_max.
@@ -91,12 +102,12 @@ void count_seeds(const Layer& layer, const View& view, const FixedTriangles& tri
   const float zoom = float(view.zoom());
   const float full = layer.law == DensityLaw::distance ? layer.density : 0.0f;
   uint32_t least = UINT32_MAX, most = 0;
-  out.counts.resize(triangles.triangles.size());
-  for (size_t i = 0; i < triangles.triangles.size(); ++i) {
-    const FixedTriangle& triangle = triangles.triangles[i];
-    const float limit = limit_at(layer, view, zoom, triangle, nearest_seed(triangles, triangle));
+  const std::span<const float> area = triangles.area();
+  out.counts.resize(triangles.size());
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    const float limit = limit_of(layer, view, zoom, triangles, i);
     const uint32_t submitted = limit > 0.0f ? uint32_t(std::ceil(std::min(limit, k_most_seeds))) : 0u;
-    out.counts[i] = {full > 0.0f ? triangle.area * full : limit, submitted, 0};
+    out.counts[i] = {full > 0.0f ? area[i] * full : limit, submitted, 0};
     if (submitted == 0) continue;
     least = std::min(least, submitted);
     most = std::max(most, submitted);
@@ -137,29 +148,31 @@ void lay_out_bins(const Layer& layer, Seeding& out) {
 }
 
 /// Whole texel and fraction of an apex; far outside the map the whole texel saturates, where everything is outside.
-void locate_apex(const ColorMap& map, const FixedTriangle& triangle, TriangleRecord& record) {
+void locate_apex(const ColorMap& map, glm::dvec3 apex, TriangleRecord& record) {
   constexpr double k_far = 1.0e9;
-  const double u = (triangle.apex.x - map.min_corner.x) / map.size.x * map.width;
-  const double v = (map.min_corner.y + map.size.y - triangle.apex.y) / map.size.y * map.height;
+  const double u = (apex.x - map.min_corner.x) / map.size.x * map.width;
+  const double v = (map.min_corner.y + map.size.y - apex.y) / map.size.y * map.height;
   const glm::dvec2 place = glm::clamp(glm::dvec2(u, v), -k_far, k_far);
   const glm::dvec2 whole = glm::floor(place);
   record.texel = glm::ivec2(whole);
   record.texel_fraction = glm::vec2(place - whole);
 }
 
-TriangleRecord make_record(const View& view, const ColorMap& map, const FixedTriangles& triangles,
-                           const FixedTriangle& triangle, const Seeding::Count& count) {
+TriangleRecord make_record(const View& view, const ColorMap& map, const FixedTriangles& triangles, size_t i,
+                           const Seeding::Count& count) {
+  const glm::dvec3 apex = triangles.apex()[i];
+  const TriangleId id = triangles.id()[i];
   TriangleRecord record;
-  record.apex = glm::vec3(triangle.apex - view.eye);
-  record.id_low = triangle.id.low();
-  record.to_left = triangle.to_left;
-  record.id_high = triangle.id.high();
-  record.to_right = triangle.to_right;
-  record.surface = triangle.surface;
-  locate_apex(map, triangle, record);
+  record.apex = glm::vec3(apex - view.eye);
+  record.id_low = id.low();
+  record.to_left = triangles.to_left()[i];
+  record.id_high = id.high();
+  record.to_right = triangles.to_right()[i];
+  record.surface = triangles.surface()[i];
+  locate_apex(map, apex, record);
   record.limit = count.limit;
-  record.area = triangle.area;
-  record.surface_z = float(triangles.surface_z - view.eye.z);
+  record.area = triangles.area()[i];
+  record.surface_z = float(triangles.surface_z() - view.eye.z);
   record.submitted = count.submitted;
   return record;
 }
@@ -183,7 +196,7 @@ std::array<float, k_density_bins> bin_edges(float n_min, float n_max) {
 void seed(const Layer& layer, const View& view, const ColorMap& map, const FixedTriangles& triangles, Seeding& out) {
   out.bins = {};
   out.clusters = 0;
-  out.surface_z_origin = triangles.surface_z;
+  out.surface_z_origin = triangles.surface_z();
   out.records.clear();
   out.source.clear();
   count_seeds(layer, view, triangles, out);
@@ -191,10 +204,10 @@ void seed(const Layer& layer, const View& view, const ColorMap& map, const Fixed
   lay_out_bins(layer, out);
   std::array<uint32_t, k_density_bins> next{};
   for (int i = 0; i < k_density_bins; ++i) next[i] = out.bins[i].first;
-  for (size_t i = 0; i < triangles.triangles.size(); ++i) {
+  for (size_t i = 0; i < triangles.size(); ++i) {
     if (out.counts[i].submitted == 0) continue;
     const uint32_t place = next[out.counts[i].bin]++;
-    out.records[place] = make_record(view, map, triangles, triangles.triangles[i], out.counts[i]);
+    out.records[place] = make_record(view, map, triangles, i, out.counts[i]);
     out.source[place] = uint32_t(i);
   }
 }

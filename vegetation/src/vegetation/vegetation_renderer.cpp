@@ -81,7 +81,7 @@ Expected<void> VegetationRenderer::upload(const Seeding& seeding, const FixedTri
   Impl& self = *impl_;
   self.uploaded = false;
   self.classified = false;
-  if (auto written = self.triangles.write(seeding.records, triangles.surface); !written) return written;
+  if (auto written = self.triangles.write(seeding.records, triangles.nodes()); !written) return written;
   self.classification.reserve(seeding.clusters);
   self.view = view;
   self.bins = seeding.bins;

@@ -41,8 +41,8 @@ struct Seeding {
       bins{};                    ///< In drawing order: largest count first; empty bins have 0 triangles.
   uint32_t clusters = 0;         ///< Clusters that the bins submit.
   float n_min = 0, n_max = 0;    ///< Smallest and largest count of this frame.
-  double surface_z_origin = 0;   ///< FixedTriangles::surface_z, for the CPU twin.
-  std::vector<uint32_t> source;  ///< Index in FixedTriangles::triangles of each record.
+  double surface_z_origin = 0;   ///< FixedTriangles::surface_z(), for the CPU twin.
+  std::vector<uint32_t> source;  ///< Index in FixedTriangles of each record.
 
   /// What seed() keeps a triangle while it counts: scratch, meaningless to others.
   struct Count {
