@@ -31,8 +31,7 @@ struct Heights {
       for (int row = 0; row < box.size.y; ++row)
         for (int column = 0; column < box.size.x; ++column) {
           const size_t to = size_t(row) * size_t(box.size.x) + size_t(column);
-          const size_t from =
-              size_t(box.first.y + row) * size_t(desc.columns) + size_t(box.first.x) + size_t(column);
+          const size_t from = size_t(box.first.y + row) * size_t(desc.columns) + size_t(box.first.x) + size_t(column);
           heights[to] = samples.at(from);
           if (!holes.empty()) marked[to] = holes[from];
         }
@@ -50,7 +49,8 @@ inline Heights make_heights(const sward::WorldDesc& desc, uint32_t seed = 1) {
       uint32_t h = uint32_t(column) * 0x9E3779B1u ^ uint32_t(row) * 0x85EBCA77u ^ seed * 0xC2B2AE3Du;
       h = (h ^ h >> 15) * 0x2C1B3C6Du;
       h ^= h >> 12;
-      const double smooth = std::sin(column * 0.05 + seed) * std::cos(row * 0.04) + 0.3 * std::sin(column * 0.4 + row * 0.3);
+      const double smooth =
+          std::sin(column * 0.05 + seed) * std::cos(row * 0.04) + 0.3 * std::sin(column * 0.4 + row * 0.3);
       heights.samples[size_t(row) * size_t(desc.columns) + size_t(column)] =
           float(std::lround(30000 + 12000 * smooth + double(h % 400)));
     }
@@ -125,7 +125,9 @@ struct Triangle {
 };
 
 using Key = std::pair<int, std::pair<int, int>>;
-inline Key key_of(int level, sward::LatticePoint p) { return {level, {p.x, p.y}}; }
+inline Key key_of(int level, sward::LatticePoint p) {
+  return {level, {p.x, p.y}};
+}
 
 inline std::map<Key, std::set<Key>> all_diamonds(const sward::Lattice& lattice) {
   std::map<Key, std::set<Key>> diamonds;
@@ -138,7 +140,8 @@ inline std::map<Key, std::set<Key>> all_diamonds(const sward::Lattice& lattice) 
   };
   for (int row = 0; row < lattice.root_squares.y; ++row)
     for (int column = 0; column < lattice.root_squares.x; ++column) {
-      const sward::LatticePoint nw = sward::LatticePoint(column, row) * sward::k_root_side, se = nw + sward::k_root_side;
+      const sward::LatticePoint nw = sward::LatticePoint(column, row) * sward::k_root_side,
+                                se = nw + sward::k_root_side;
       const sward::LatticePoint sw(nw.x, se.y), ne(se.x, nw.y);
       descend(descend, Triangle{nw, sw, ne, 0});
       descend(descend, Triangle{se, ne, sw, 0});

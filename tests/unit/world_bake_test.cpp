@@ -41,8 +41,7 @@ class WorldBake : public testing::Test {
   }
   size_t files_ending(const std::string& end) const {
     size_t count = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_))
-      count += entry.path().string().ends_with(end);
+    for (const auto& entry : fs::recursive_directory_iterator(folder_)) count += entry.path().string().ends_with(end);
     return count;
   }
   static std::string read_all(const fs::path& path) {

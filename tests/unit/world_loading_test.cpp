@@ -127,8 +127,7 @@ TEST(WorldLoading, NearAndVisibleFirst) {
       roomy());
   // From the middle of square (2, 3), looking east, along the ground.
   const glm::dvec2 eye(-640 + 2.5 * 160, 640 - 3.5 * 160);
-  const sward::View view =
-      sward::View::look({eye, world->height_range().x + 100}, 0, -0.05, 0.87, {1280, 720}, 1, 1e6);
+  const sward::View view = sward::View::look({eye, world->height_range().x + 100}, 0, -0.05, 0.87, {1280, 720}, 1, 1e6);
   settle(*world, view);
   ASSERT_EQ(order.size(), 64u);
   EXPECT_EQ(order[0], glm::ivec2(2, 3));
@@ -261,45 +260,47 @@ std::span<const T> keep(sward::SquareData& data, std::vector<T> values) {
 }
 
 const Lie k_lies[] = {
-    {"Fails", "no such thing", [](sward::SquareData) -> sward::Expected<sward::SquareData> {
-       return sward::fail("no such thing");
-     }},
-    {"Throws", "thrown by the host", [](sward::SquareData) -> sward::Expected<sward::SquareData> {
-       throw std::runtime_error("thrown by the host");
-     }},
+    {"Fails", "no such thing",
+     [](sward::SquareData) -> sward::Expected<sward::SquareData> { return sward::fail("no such thing"); }},
+    {"Throws", "thrown by the host",
+     [](sward::SquareData) -> sward::Expected<sward::SquareData> { throw std::runtime_error("thrown by the host"); }},
     {"ThrowsANumber", "no exception", [](sward::SquareData) -> sward::Expected<sward::SquareData> { throw 7; }},
-    {"RunsOutOfMemory", "out of memory", [](sward::SquareData) -> sward::Expected<sward::SquareData> {
-       throw std::bad_alloc();
-     }},
-    {"Nothing", "has 0 integer", [](sward::SquareData) -> sward::Expected<sward::SquareData> {
-       return sward::SquareData{};
-     }},
-    {"TooFewSamples", "has 360 integer", [](sward::SquareData data) -> sward::Expected<sward::SquareData> {
+    {"RunsOutOfMemory", "out of memory",
+     [](sward::SquareData) -> sward::Expected<sward::SquareData> { throw std::bad_alloc(); }},
+    {"Nothing", "has 0 integer",
+     [](sward::SquareData) -> sward::Expected<sward::SquareData> { return sward::SquareData{}; }},
+    {"TooFewSamples", "has 360 integer",
+     [](sward::SquareData data) -> sward::Expected<sward::SquareData> {
        data.words = data.words.first(360);
        return data;
      }},
-    {"NoBounds", "has 0 bounds", [](sward::SquareData data) -> sward::Expected<sward::SquareData> {
+    {"NoBounds", "has 0 bounds",
+     [](sward::SquareData data) -> sward::Expected<sward::SquareData> {
        data.bounds = {};
        return data;
      }},
-    {"WrongMask", "hole mask of 1", [](sward::SquareData data) -> sward::Expected<sward::SquareData> {
+    {"WrongMask", "hole mask of 1",
+     [](sward::SquareData data) -> sward::Expected<sward::SquareData> {
        data.holes = keep<uint64_t>(data, {1});
        return data;
      }},
-    {"OtherCoarseHeights", "other heights than", [](sward::SquareData data) -> sward::Expected<sward::SquareData> {
+    {"OtherCoarseHeights", "other heights than",
+     [](sward::SquareData data) -> sward::Expected<sward::SquareData> {
        std::vector<uint16_t> words(data.words.begin(), data.words.end());
        words[20] = uint16_t(words[20] + 1);
        data.words = keep(data, std::move(words));
        return data;
      }},
-    {"OtherBorder", "shared border", [](sward::SquareData data) -> sward::Expected<sward::SquareData> {
+    {"OtherBorder", "shared border",
+     [](sward::SquareData data) -> sward::Expected<sward::SquareData> {
        std::vector<uint16_t> words(data.words.begin(), data.words.end());
        for (size_t i = 0; i < 19; ++i) words[i * 19 + 1] = uint16_t(words[i * 19 + 1] + (i % 4 == 2));
        for (size_t i = 0; i < 19; ++i) words[i * 19 + 17] = uint16_t(words[i * 19 + 17] + (i % 4 == 2));
        data.words = keep(data, std::move(words));
        return data;
      }},
-    {"LargerBounds", "larger bounds", [](sward::SquareData data) -> sward::Expected<sward::SquareData> {
+    {"LargerBounds", "larger bounds",
+     [](sward::SquareData data) -> sward::Expected<sward::SquareData> {
        data.bounds = keep(data, std::vector<uint16_t>(data.bounds.size(), uint16_t(0xfff0)));
        return data;
      }},

@@ -33,8 +33,8 @@ Field field_of(const Heights& heights) {
   sward::HeightField::Samples samples = std::vector<uint16_t>(heights.samples.begin(), heights.samples.end());
   if (world.floats) samples = heights.samples;
   Field made;
-  made.field = std::make_unique<sward::HeightField>(
-      sward::HeightField::create(desc, std::move(samples), heights.holes).value());
+  made.field =
+      std::make_unique<sward::HeightField>(sward::HeightField::create(desc, std::move(samples), heights.holes).value());
   made.bounds = std::make_unique<sward::Bounds>(sward::Bounds::create(*made.field));
   return made;
 }
