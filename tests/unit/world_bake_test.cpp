@@ -131,6 +131,7 @@ TEST_F(WorldBake, GoesOnWhereItWasCutOff) {
   ASSERT_TRUE(rest) << rest.error().message;
   EXPECT_EQ(rest->skipped, 2u);
   EXPECT_EQ(rest->baked, 4u);
+  EXPECT_EQ(files_ending(".part"), 0u);
   EXPECT_EQ(open_error(), "");
   const std::string resumed = read_all(index());
 

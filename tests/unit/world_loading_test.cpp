@@ -68,7 +68,7 @@ TEST(WorldLoading, StaysUnderTheCapOnAWildFlight) {
   Census census;
   sward::WorldOptions options = roomy();
   const size_t square = 19 * 19 * 2 + 17 * 17 * 2 + 5 * 8;
-  const size_t base = 33 * 33 * 6 + 32 * 32 * 2 + 64 * 4 * sizeof(void*);
+  const size_t base = 33 * 33 * 6 + 32 * 32 * 2 + 64 * 24;
   options.memory_bytes = base + 10 * square + square / 2;
   options.adopt_per_poll = 2;
   {
@@ -352,7 +352,7 @@ TEST(WorldLoading, FloatsThatAreNoNumbers) {
 TEST(WorldLoading, SeveralViewsAndNone) {
   const Heights heights = make_heights(make_desc({8, 8}, 4, 2));
   sward::WorldOptions options = roomy();
-  options.memory_bytes = 33 * 33 * 6 + 32 * 32 * 2 + 64 * 4 * sizeof(void*) + 7 * (19 * 19 * 2 + 17 * 17 * 2 + 40);
+  options.memory_bytes = 33 * 33 * 6 + 32 * 32 * 2 + 64 * 24 + 7 * (19 * 19 * 2 + 17 * 17 * 2 + 40);
   const auto world = make_world(heights, loader_of(heights), options);
   sward::View views[2] = {view_over(*world, {-560, 560}, 20), view_over(*world, {560, -560}, 20)};
   world->follow(views);
@@ -378,7 +378,7 @@ TEST(WorldLoading, SeveralViewsAndNone) {
 TEST(WorldLoading, ReadersOnOtherThreads) {
   const Heights heights = make_heights(make_desc({6, 6}, 4, 2));
   sward::WorldOptions options = roomy();
-  options.memory_bytes = 25 * 25 * 6 + 24 * 24 * 2 + 36 * 4 * sizeof(void*) + 5 * (19 * 19 * 2 + 17 * 17 * 2 + 40);
+  options.memory_bytes = 25 * 25 * 6 + 24 * 24 * 2 + 36 * 24 + 5 * (19 * 19 * 2 + 17 * 17 * 2 + 40);
   const auto world = make_world(heights, loader_of(heights), options);
   std::atomic<bool> done{false};
   std::atomic<int> faults{0}, fine{0};

@@ -27,6 +27,16 @@ Expected<void> check_folder(const std::string& folder, uint64_t fingerprint) {
               "' holds another world, or one baked from other files; delete it or name another");
 }
 
+// What runs that were killed have left.
+void remove_temporaries(const std::string& folder) {
+  std::error_code error;
+  std::vector<fs::path> found;
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    if (it->path().extension() == ".part") found.push_back(it->path());
+  }
+  for (const fs::path& path : found) fs::remove(path, error);
+}
+
 uint64_t count_holes(const SquareData& data) {
   uint64_t count = 0;
   for (const uint64_t word : data.holes) count += uint64_t(std::popcount(word));
@@ -54,6 +64,7 @@ class Baker {
     }
     index_.coarse = coarse_.finish(desc_.threads);
     if (auto written = world::write_index(folder_, index_); !written) return tl::unexpected<Error>(written.error());
+    remove_temporaries(folder_);
     std::error_code ignored;
     stats_.bytes += fs::file_size(world::index_path(folder_), ignored);
     if (progress) progress(1.0f);

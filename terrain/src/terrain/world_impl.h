@@ -31,8 +31,11 @@ struct World::Impl {
   };
   struct Wanted {
     uint32_t index = 0;
-    float gain_px = 0;  // how much the coarse data may be off on screen
+    float score_px = 0;  // how much the coarse data may be off on screen, more where the square is resident
     bool in_sight = false;
+  };
+  struct Box {
+    glm::dvec3 low, high;
   };
   struct Failure {
     int attempts = 0;
@@ -56,6 +59,8 @@ struct World::Impl {
   glm::dvec2 coarse_gradient(glm::ivec2 at) const;
 
   // Residency; the controlling thread.
+  Box box_of(glm::ivec2 square) const;
+  void score_around(const View& view);
   void rank(std::span<const View> views);
   void take_answers(std::vector<LatticeBox>& boxes);
   void adopt(glm::ivec2 square, SquareData data, std::vector<LatticeBox>& boxes);
@@ -70,16 +75,17 @@ struct World::Impl {
   const WorldOptions options;
   const std::shared_ptr<const WorldCoarse> coarse;
   std::vector<SquareInfo> squares;
-  size_t base_bytes = 0;  // what does not come and go
-  size_t capacity = 0;    // squares that fit beside that
+  std::vector<float> score;  // by square, of the last follow(), pixels; 0 beyond the surroundings of all eyes
+  size_t base_bytes = 0;     // what does not come and go
+  size_t capacity = 0;       // squares that fit beside that
 
   std::vector<std::atomic<const SquareData*>> slots;  // by square
   std::unordered_map<uint32_t, std::unique_ptr<SquareData>> resident;
   std::vector<std::unique_ptr<SquareData>> dropped;  // in the last poll: others may still be reading them
   std::unordered_map<uint32_t, Failure> failing;
   std::unordered_set<uint32_t> asked;
-  std::vector<Wanted> ranked;  // of the last follow(), in the order of loading; all but the wanted cut off
-  std::unordered_map<uint32_t, float> gain;  // of all squares around the eyes
+  std::vector<Wanted> ranked;    // of the last follow(), in the order of loading; all but the wanted cut off
+  std::vector<uint32_t> scored;  // the squares whose score is not 0
   WorldStats stats;
   world::SquareLoader loader;
 };

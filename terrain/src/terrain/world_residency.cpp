@@ -7,6 +7,7 @@
 // quarter more, so that a still or a hovering view changes nothing.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -53,7 +54,7 @@ Expected<void> check(const world::WorldLayout& layout, const WorldCoarse& coarse
 size_t base_bytes_of(const world::WorldLayout& layout) {
   const size_t coarse =
       layout.coarse_samples() * (sizeof(float) + sizeof(uint16_t)) + layout.coarse_cells() * sizeof(uint16_t);
-  return coarse + layout.square_count() * 4 * sizeof(void*);
+  return coarse + layout.square_count() * (sizeof(void*) + 4 * sizeof(float));
 }
 
 Expected<void> check_memory(const world::WorldLayout& layout, const WorldOptions& options) {
@@ -65,7 +66,7 @@ Expected<void> check_memory(const world::WorldLayout& layout, const WorldOptions
 }
 
 // A box around a square against the view's halfspaces.
-bool in_sight(std::span<const Plane> planes, glm::dvec3 low, glm::dvec3 high) {
+bool meets(std::span<const Plane> planes, glm::dvec3 low, glm::dvec3 high) {
   for (const Plane& plane : planes) {
     const glm::dvec3 far(plane.n.x > 0 ? high.x : low.x, plane.n.y > 0 ? high.y : low.y,
                          plane.n.z > 0 ? high.z : low.z);
@@ -82,6 +83,7 @@ World::Impl::Impl(const WorldDesc& desc, std::shared_ptr<const WorldCoarse> coar
       options(world_options),
       coarse(std::move(coarse_data)),
       squares(layout.square_count()),
+      score(layout.square_count(), 0.0f),
       base_bytes(base_bytes_of(layout)),
       capacity((options.memory_bytes - base_bytes) / layout.square_bytes(true)),
       slots(layout.square_count()),
@@ -140,55 +142,64 @@ Expected<std::unique_ptr<World>> World::open(const std::string& folder, const Wo
       index->desc, std::make_shared<const WorldCoarse>(std::move(index->coarse)), load, options)));
 }
 
-void World::Impl::rank(std::span<const View> views) {
-  // Squares beyond these around an eye could only be wanted where nearer ones are flat.
+// A square's box, world axes.
+World::Impl::Box World::Impl::box_of(glm::ivec2 square) const {
+  const SquareInfo& info = squares[layout.square_index(square)];
+  const LatticePoint nw = square * k_root_side;
+  const glm::dvec2 north_west = layout.lattice.world_xy(nw), south_east = layout.lattice.world_xy(nw + k_root_side);
+  return {{north_west.x, south_east.y, info.low}, {south_east.x, north_west.y, info.high}};
+}
+
+// Scores of the squares around one eye, the higher one where another eye has scored them before.
+void World::Impl::score_around(const View& view) {
+  // Squares beyond these could only be wanted where nearer ones are flat.
   const int around = int(std::ceil(std::sqrt(double(capacity)))) + 1;
-  std::unordered_map<uint32_t, Wanted> candidates;
+  const WorldDesc& d = layout.desc;
+  const glm::dvec2 focal = view.focal_px();
+  const double px = std::max(focal.x, focal.y);
+  const glm::dvec2 place((view.eye.x - d.origin.x) / d.spacing.x + 0.5 * (d.columns - 1),
+                         0.5 * (d.rows - 1) - (view.eye.y - d.origin.y) / d.spacing.y);
+  const glm::dvec2 end(layout.squares - 1);
+  const glm::ivec2 own(glm::clamp(glm::floor(place / double(layout.cells)), glm::dvec2(0), end));
+  const glm::ivec2 first = glm::max(own - around, glm::ivec2(0)), last = glm::min(own + around, glm::ivec2(end));
+  for (int row = first.y; row <= last.y; ++row)
+    for (int column = first.x; column <= last.x; ++column) {
+      const auto index = uint32_t(layout.square_index({column, row}));
+      if (squares[index].detail_m <= 0.0f) continue;
+      const Box box = box_of({column, row});
+      const double away = glm::length(view.eye - glm::clamp(view.eye, box.low, box.high));
+      const double off_px = squares[index].detail_m * px / (view.perspective() ? std::max(away, d.spacing.x) : 1.0);
+      const bool is_resident = slots[index].load(std::memory_order_relaxed) != nullptr;
+      if (score[index] == 0.0f) scored.push_back(index);
+      score[index] = std::max(score[index], float(off_px) * (is_resident ? k_resident_bonus : 1.0f));
+    }
+}
+
+void World::Impl::rank(std::span<const View> views) {
+  for (const uint32_t index : scored) score[index] = 0.0f;
+  scored.clear();
+  ranked.clear();
+  std::vector<std::pair<glm::dvec3, std::array<Plane, 6>>> eyes;
   for (const View& view : views) {
     if (!view.validate()) continue;
-    const auto planes = frustum_planes(view);
-    const glm::dvec2 focal = view.focal_px();
-    const double px = std::max(focal.x, focal.y);
-    const WorldDesc& d = layout.desc;
-    const glm::dvec2 place((view.eye.x - d.origin.x) / d.spacing.x + 0.5 * (d.columns - 1),
-                           0.5 * (d.rows - 1) - (view.eye.y - d.origin.y) / d.spacing.y);
-    const glm::dvec2 end(layout.squares - 1);
-    const glm::ivec2 own(glm::clamp(glm::floor(place / double(layout.cells)), glm::dvec2(0), end));
-    const glm::ivec2 first = glm::max(own - around, glm::ivec2(0)), last = glm::min(own + around, glm::ivec2(end));
-    for (int row = first.y; row <= last.y; ++row)
-      for (int column = first.x; column <= last.x; ++column) {
-        const glm::ivec2 square(column, row);
-        const uint32_t index = uint32_t(layout.square_index(square));
-        const SquareInfo& info = squares[index];
-        const LatticePoint nw = square * k_root_side;
-        const glm::dvec2 north_west = layout.lattice.world_xy(nw),
-                         south_east = layout.lattice.world_xy(nw + k_root_side);
-        const glm::dvec3 low(north_west.x, south_east.y, info.low), high(south_east.x, north_west.y, info.high);
-        const double away = glm::length(view.eye - glm::clamp(view.eye, low, high));
-        const double gain_px = info.detail_m * px / (view.perspective() ? std::max(away, d.spacing.x) : 1.0);
-        Wanted& wanted = candidates[index];
-        wanted.index = index;
-        wanted.gain_px = std::max(wanted.gain_px, float(gain_px));
-        wanted.in_sight = wanted.in_sight || in_sight(planes, low - view.eye, high - view.eye);
-      }
+    score_around(view);
+    eyes.emplace_back(view.eye, frustum_planes(view));
   }
-  gain.clear();
-  ranked.clear();
-  for (const auto& [index, wanted] : candidates) {
-    const float bonus = resident.contains(index) ? k_resident_bonus : 1.0f;
-    gain[index] = wanted.gain_px * bonus;
-    if (gain[index] > 0.0f && gain[index] >= options.worth_px) ranked.push_back(wanted);
+  for (const uint32_t index : scored) {
+    if (score[index] >= options.worth_px) ranked.push_back({index, score[index], false});
   }
+  std::sort(ranked.begin(), ranked.end(), [](const Wanted& a, const Wanted& b) {
+    return a.score_px != b.score_px ? a.score_px > b.score_px : a.index < b.index;
+  });
   // One square of the capacity is for what is on its way in or out.
-  const size_t most = capacity - 1;
-  const auto better = [this](const Wanted& a, const Wanted& b) {
-    const float x = gain[a.index], y = gain[b.index];
-    return x != y ? x > y : a.index < b.index;
-  };
-  std::sort(ranked.begin(), ranked.end(), better);
-  if (ranked.size() > most) ranked.resize(most);
-  std::stable_sort(ranked.begin(), ranked.end(),
-                   [](const Wanted& a, const Wanted& b) { return a.in_sight && !b.in_sight; });
+  if (ranked.size() > capacity - 1) ranked.resize(capacity - 1);
+  for (Wanted& wanted : ranked) {
+    const Box box = box_of(square_of(wanted.index));
+    wanted.in_sight = std::any_of(eyes.begin(), eyes.end(), [&](const auto& eye) {
+      return meets(eye.second, box.low - eye.first, box.high - eye.first);
+    });
+  }
+  std::stable_partition(ranked.begin(), ranked.end(), [](const Wanted& wanted) { return wanted.in_sight; });
 }
 
 void World::follow(std::span<const View> views) {
@@ -241,16 +252,14 @@ bool World::Impl::drop_least_useful(std::vector<LatticeBox>& boxes) {
   std::unordered_set<uint32_t> kept;
   for (const Wanted& wanted : ranked) kept.insert(wanted.index);
   uint32_t least = 0;
-  float least_gain = std::numeric_limits<float>::infinity();
+  float least_score = std::numeric_limits<float>::infinity();
   for (const auto& [index, data] : resident) {
     if (kept.contains(index)) continue;
-    const auto known = gain.find(index);
-    const float px = known == gain.end() ? -1.0f : known->second;
-    if (px > least_gain || (px == least_gain && index > least)) continue;
+    if (score[index] > least_score || (score[index] == least_score && index > least)) continue;
     least = index;
-    least_gain = px;
+    least_score = score[index];
   }
-  if (std::isinf(least_gain)) return false;
+  if (std::isinf(least_score)) return false;
   slots[least].store(nullptr, std::memory_order_release);
   dropped.push_back(std::move(resident[least]));
   resident.erase(least);

@@ -27,7 +27,7 @@ struct BakeStats {
 /// north-west: memory is that of one square with its margin and of the coarse data, whatever the world's size. `read`
 /// is called on this thread. Squares are written to temporaries, synced and renamed; the index comes last, so a set
 /// that is not complete is none. Called again after it was cut off, it verifies the squares that are there (same
-/// description, same source, right checksum) and computes only the others.
+/// description, same source, right checksum) and computes only the others. One bake a folder at a time.
 ///
 /// Fails when the folder cannot be written or holds another world's index, when `read` fails, when the disk is full:
 /// then what is finished stays, and no index is there.
