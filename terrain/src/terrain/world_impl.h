@@ -11,6 +11,7 @@
 
 #include "world_layout.h"
 #include "world_loader.h"
+#include "world_readers.h"
 
 namespace sward {
 
@@ -42,9 +43,9 @@ struct World::Impl {
     std::chrono::steady_clock::time_point retry_at;
   };
 
-  // Reading; any thread.
+  // Reading; any thread, counted in as a reader.
   const SquareData* fine(glm::ivec2 square) const {
-    return slots[layout.square_index(square)].load(std::memory_order_acquire);
+    return slots[layout.square_index(square)].load(std::memory_order_seq_cst);
   }
   FineSample find(glm::ivec2 sample) const;
   double metres(double raw) const { return raw * layout.desc.scale + (layout.desc.offset + layout.desc.origin.z); }
@@ -65,10 +66,11 @@ struct World::Impl {
   void take_answers(std::vector<LatticeBox>& boxes);
   void adopt(glm::ivec2 square, SquareData data, std::vector<LatticeBox>& boxes);
   void note_failure(glm::ivec2 square, const std::string& message);
+  void free_dropped();
   void ask(std::vector<LatticeBox>& boxes);
   bool may_ask_for(uint32_t index, std::chrono::steady_clock::time_point now) const;
   bool drop_least_useful(std::vector<LatticeBox>& boxes);
-  size_t squares_in_use() const { return resident.size() + dropped.size() + loader.held(); }
+  size_t squares_in_use() const { return resident.size() + dropped.size() + leaving.size() + loader.held(); }
   glm::ivec2 square_of(uint32_t index) const { return {int(index) % layout.squares.x, int(index) / layout.squares.x}; }
 
   const world::WorldLayout layout;
@@ -81,7 +83,9 @@ struct World::Impl {
 
   std::vector<std::atomic<const SquareData*>> slots;  // by square
   std::unordered_map<uint32_t, std::unique_ptr<SquareData>> resident;
-  std::vector<std::unique_ptr<SquareData>> dropped;  // in the last poll: others may still be reading them
+  std::vector<std::unique_ptr<SquareData>> dropped;  // since the readers' last flip
+  std::vector<std::unique_ptr<SquareData>> leaving;  // before it: freed when their readers have gone
+  world::Readers readers;
   std::unordered_map<uint32_t, Failure> failing;
   std::unordered_set<uint32_t> asked;
   std::vector<Wanted> ranked;    // of the last follow(), in the order of loading; all but the wanted cut off

@@ -220,7 +220,7 @@ void World::Impl::note_failure(glm::ivec2 square, const std::string& message) {
 void World::Impl::adopt(glm::ivec2 square, SquareData data, std::vector<LatticeBox>& boxes) {
   const uint32_t index = uint32_t(layout.square_index(square));
   auto kept = std::make_unique<SquareData>(std::move(data));
-  slots[index].store(kept.get(), std::memory_order_release);
+  slots[index].store(kept.get(), std::memory_order_seq_cst);
   resident[index] = std::move(kept);
   failing.erase(index);
   stats.loads += 1;
@@ -260,12 +260,24 @@ bool World::Impl::drop_least_useful(std::vector<LatticeBox>& boxes) {
     least_score = score[index];
   }
   if (std::isinf(least_score)) return false;
-  slots[least].store(nullptr, std::memory_order_release);
+  slots[least].store(nullptr, std::memory_order_seq_cst);
   dropped.push_back(std::move(resident[least]));
   resident.erase(least);
   stats.drops += 1;
   boxes.push_back(layout.reach_of(square_of(least)));
   return true;
+}
+
+// What was dropped goes in two steps: unlinked, and freed when all have gone that may have found it before.
+void World::Impl::free_dropped() {
+  if (!leaving.empty()) {
+    if (!readers.drained()) return;
+    for (auto& data : leaving) loader.discard(std::move(*data));
+    leaving.clear();
+  }
+  if (dropped.empty() || !readers.drained()) return;
+  leaving.swap(dropped);
+  readers.flip();
 }
 
 void World::Impl::ask(std::vector<LatticeBox>& boxes) {
@@ -275,7 +287,7 @@ void World::Impl::ask(std::vector<LatticeBox>& boxes) {
     if (!may_ask_for(wanted.index, now)) continue;
     if (squares_in_use() >= capacity) {
       // Room comes once others have stopped reading what is dropped.
-      if (dropped.empty() && loader.freeing() == 0) drop_least_useful(boxes);
+      if (dropped.empty() && leaving.empty() && loader.freeing() == 0) drop_least_useful(boxes);
       return;
     }
     asked.insert(wanted.index);
@@ -286,8 +298,7 @@ void World::Impl::ask(std::vector<LatticeBox>& boxes) {
 std::vector<LatticeBox> World::poll() {
   Impl& w = *impl_;
   std::vector<LatticeBox> boxes;
-  for (auto& data : w.dropped) w.loader.discard(std::move(*data));
-  w.dropped.clear();
+  w.free_dropped();
   w.loader.expire(w.options.answer_timeout_s);
   w.take_answers(boxes);
   w.ask(boxes);

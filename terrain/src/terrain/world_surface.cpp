@@ -154,6 +154,7 @@ const Lattice& World::lattice() const {
 }
 
 double World::height(LatticePoint p) const {
+  const world::Readers::Guard guard(impl_->readers);
   const Impl& w = *impl_;
   const int mask = (1 << w.layout.step_bits) - 1;
   if (((p.x | p.y) & mask) == 0) return w.sample_height(p >> w.layout.step_bits);
@@ -163,6 +164,7 @@ double World::height(LatticePoint p) const {
 double World::height(glm::dvec2 xy) const {
   const glm::dvec2 place = lattice().from_world(xy);
   if (std::isnan(place.x)) return place.x;
+  const world::Readers::Guard guard(impl_->readers);
   return impl_->surface_height(place / double(lattice().sample_step()));
 }
 
@@ -177,6 +179,7 @@ float World::bound(LatticePoint centre, int level) const {
   if (level < coarsest)
     return decode_bound(w.coarse->bounds[w.layout.coarse_index(centre >> w.layout.coarse_unit_bits)]);
   if (level == coarsest) return w.cell_bound(centre);
+  const world::Readers::Guard guard(impl_->readers);
   const Impl::FineSample found = w.find(centre >> w.layout.step_bits);
   if (found.data == nullptr) return w.cell_bound(centre);
   return decode_bound(found.data->bounds[size_t(found.at.y) * size_t(w.layout.side()) + size_t(found.at.x)]);
@@ -186,6 +189,7 @@ bool World::can_split(LatticePoint centre, int level) const {
   const Impl& w = *impl_;
   if (level < 2 * w.layout.desc.coarse_bits) return true;
   if (level >= lattice().max_level) return false;
+  const world::Readers::Guard guard(impl_->readers);
   const int reach = (3 << w.layout.coarse_unit_bits) / 2 - 1;
   const glm::ivec2 first = glm::max(centre - reach, LatticePoint(0)) >> k_root_bits;
   const glm::ivec2 last = glm::min((centre + reach) >> k_root_bits, w.layout.squares - 1);
@@ -213,6 +217,7 @@ glm::dvec2 World::Impl::coarse_gradient(glm::ivec2 at) const {
 }
 
 glm::dvec2 World::data_gradient(glm::dvec2 xy) const {
+  const world::Readers::Guard guard(impl_->readers);
   const Impl& w = *impl_;
   const WorldDesc& d = w.layout.desc;
   const glm::dvec2 last(w.layout.data_last);
@@ -236,6 +241,7 @@ glm::dvec2 World::data_gradient(glm::dvec2 xy) const {
 }
 
 bool World::all_holes(const LatticeBox& box) const {
+  const world::Readers::Guard guard(impl_->readers);
   const Impl& w = *impl_;
   const int bits = w.layout.step_bits;
   const glm::ivec2 low = glm::max(box.first >> bits, glm::ivec2(0));

@@ -68,8 +68,7 @@ struct WorldStats {
 ///
 /// Each frame: follow() with the views, poll(), surface_changed() of every mesh with each box that poll() gave, update.
 ///
-///   data      Surface calls and height() are safe from any thread at any time, provided that a call does not last
-///             from one poll() to the next but one.
+///   data      Surface calls and height(): any thread, at any time, without waiting.
 ///   control   follow(), poll(), stats(): one thread at a time.
 class World final : public Surface {
  public:
@@ -106,7 +105,7 @@ class World final : public Surface {
   void follow(std::span<const View> views);
   /// Takes over what has been loaded, drops what has to make room, asks for more. Returns the boxes in which answers
   /// have changed; every mesh must be told before its next update. Never waits for a load. What is dropped is freed
-  /// after the next poll(), by the background thread.
+  /// by the background thread when nobody reads it any more.
   std::vector<LatticeBox> poll();
   /// True when every wanted square is resident or failing.
   bool settled() const;
