@@ -3,8 +3,9 @@
 
 #include <sward/terrain/world_bake.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include "sward/arguments.h"
 #include "sward/commands/commands.h"
