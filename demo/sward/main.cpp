@@ -26,7 +26,8 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   const sward::tool::Command commands[] = {
       sward::tool::add_view(app), sward::tool::add_render(app), sward::tool::add_fly(app),
-      sward::tool::add_mesh(app), sward::tool::add_plants(app), sward::tool::add_info(app),
+      sward::tool::add_mesh(app), sward::tool::add_plants(app), sward::tool::add_bake(app),
+      sward::tool::add_info(app),
   };
   try {
     app.parse(argc, argv);

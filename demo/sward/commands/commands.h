@@ -18,6 +18,7 @@ Command add_render(CLI::App& parent);
 Command add_fly(CLI::App& parent);
 Command add_mesh(CLI::App& parent);
 Command add_plants(CLI::App& parent);
+Command add_bake(CLI::App& parent);
 Command add_info(CLI::App& parent);
 Command add_view(CLI::App& parent);
 

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// sward terrain: the CPU half. It does not draw, read files, own a window, a context, a thread or a main loop.
+/// sward terrain: the CPU half. It does not draw, own a window, a context or a main loop; only a World reads
+/// files and has a thread, in the background.
 ///
 /// HeightField (samples and relief) -> Bounds (error of every diamond) -> RoamMesh (mesh for a View)
 ///   -> visible_indices() for a renderer, fixed_level_triangles() for vegetation.
+/// World (squares loaded and dropped) takes the place of HeightField and Bounds where they do not fit into memory.
 #include <sward/terrain/bounds.h>
 #include <sward/terrain/color_map.h>
 #include <sward/terrain/edits.h>
@@ -15,3 +17,5 @@
 #include <sward/terrain/queries.h>
 #include <sward/terrain/roam_mesh.h>
 #include <sward/terrain/view.h>
+#include <sward/terrain/world.h>
+#include <sward/terrain/world_bake.h>
