@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 //
-// bake: a world from one height map or many, gone on with after a cut, never half.
+// bake: a world from one height map or many, gone on with after a cut, never half. mesh --world: the mesh over it.
 
 #include <algorithm>
 
@@ -126,10 +126,41 @@ const BadBake k_bad[] = {
     {"NegativeOverlap", "bake MAP -o world --overlap -1", 1, "cannot share -1"},
     {"NoRow", "bake MAP -o world --images-a-row 0", 1, "--images-a-row"},
     {"NoSpacing", "bake MAP -o world --spacing 0", 1, "spacing"},
+    {"MissingWorld", "mesh --world none --flight MAP", 1, "sward bake"},
+    {"WorldAndScene", "mesh meadow --world none --flight MAP", 1, "takes the place of a scene"},
+    {"WaitWithoutWorld", "mesh --wait", 2, "--world"},
     {"NoScale", "bake MAP -o world --height-scale 0", 1, "scale"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Kinds, CliBadBake, testing::ValuesIn(k_bad),
                          [](const auto& each) { return std::string(each.param.name); });
+
+// A flight of three frames over the middle.
+std::string flight() {
+  std::string csv = "time,x,y,z,yaw,pitch\n";
+  for (int i = 0; i < 3; ++i) csv += std::to_string(i) + "," + std::to_string(i * 20) + ",0,120,30,-30\n";
+  return csv;
+}
+
+TEST_F(CliBake, MeshOverAWorld) {
+  ASSERT_EQ(run("bake " + map() + " -o world --square 33 --spacing 4 --height-scale 0.01").status, 0);
+  cli::write_file(inputs() / "flight.csv", flight());
+  const std::string path = " --flight '" + (inputs() / "flight.csv").string() + "' --triangles 1500";
+  const cli::Result world = run("mesh --world world --wait" + path + " --timings t.csv --at 2 -o world.ply");
+  ASSERT_EQ(world.status, 0) << world.err;
+  const auto rows = cli::read_csv(folder() / "t.csv");
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0],
+            cli::split("frame,poll_ms,update_ms,visible,splits,merges,bound_px,resident,loads,drops,memory_mb", ','));
+  EXPECT_GT(std::stod(rows[3][7]), 3);
+  EXPECT_GT(cli::read_file(folder() / "world.ply").size(), 1000u);
+  const cli::Result capped = run("mesh --world world --memory 0.01" + path);
+  expect_error(capped, 1);
+  EXPECT_NE(capped.err.find("raise it to at least"), std::string::npos) << capped.err;
+  cli::write_file(folder() / "world" / "r0001" / "c0001.square", "damaged");
+  const cli::Result damaged = run("mesh --world world --wait" + path);
+  EXPECT_EQ(damaged.status, 0) << damaged.err;
+  EXPECT_NE(damaged.out.find("square (1, 1)"), std::string::npos) << damaged.out;
+}
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "host/scene_frame.h"
 #include "sward/commands/commands.h"
 #include "sward/commands/flight_options.h"
+#include "sward/commands/mesh_world.h"
 #include "sward/output/figures.h"
 #include "sward/output/files.h"
 #include "sward/output/ply.h"
@@ -26,6 +27,25 @@ struct MeshOptions {
   float target_px = 0;
   bool all = false, no_morph = false, plain = false;
 };
+
+// The same options for a world in the place of a scene.
+Expected<void> mesh_of_world(const MeshOptions& options, WorldMeshOptions world) {
+  if (auto checked = check_output(options.timings); !checked) return checked;
+  if (auto checked = check_output(options.output); !checked) return checked;
+  if (auto checked = check_path(options.path); !checked) return checked;
+  if (!options.scene.scene.empty() || !options.scene.height.empty())
+    return fail("--world takes the place of a scene and of --height: name one of them");
+  world.path = options.path;
+  world.timings = options.timings;
+  world.output = options.output;
+  world.at = options.at;
+  world.triangles = options.scene.triangles.value_or(world.triangles);
+  world.target_px = options.target_px;
+  world.all = options.all;
+  world.no_morph = options.no_morph || options.plain;
+  world.plain = options.plain;
+  return mesh_over_world(world);
+}
 
 struct MeshRow {
   double update_ms = 0, fixed_level_ms = 0;
@@ -156,8 +176,10 @@ Expected<void> mesh(const MeshOptions& options) {
 
 Command add_mesh(CLI::App& parent) {
   auto options = std::make_shared<MeshOptions>();
+  auto world = std::make_shared<WorldMeshOptions>();
   CLI::App* app = parent.add_subcommand("mesh", "Run the terrain mesh alone over a camera path, without GL");
   add_scene_options(*app, options->scene, false);
+  add_world_options(*app, *world);
   add_path_options(*app, options->path);
   app->add_option("--target-px", options->target_px, "Stop refining when the bound is this small; 0: use the budget")
       ->type_name("PX");
@@ -169,7 +191,7 @@ Command add_mesh(CLI::App& parent) {
   app->add_flag("--all", options->all, "All leaves, not only the visible ones")->needs(output);
   app->add_flag("--no-morph", options->no_morph, "Vertices stand at their final height at once");
   app->add_flag("--plain", options->plain, "As published in 1997: no hysteresis, no morph");
-  return {app, [options] { return mesh(*options); }};
+  return {app, [options, world] { return world->folder.empty() ? mesh(*options) : mesh_of_world(*options, *world); }};
 }
 
 }  // namespace sward::tool

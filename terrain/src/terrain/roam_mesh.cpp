@@ -24,6 +24,8 @@ struct RoamMesh::Impl {
   std::unique_ptr<Surface> own_surface;  // of meshes over a field's bounds
   roam::RoamEngine engine;
   uint64_t revision = first_revision();
+  uint64_t surface_epoch = revision;  // one more for every change of the surface's static data
+  LatticeBox surface_change;          // where the last of them was
 };
 
 Expected<RoamMesh> RoamMesh::create(const Bounds& bounds, const RoamOptions& options) {
@@ -52,6 +54,8 @@ Expected<RoamStats> RoamMesh::update(const View& view, double time_s) {
 
 void RoamMesh::surface_changed(const LatticeBox& box) {
   impl_->engine.surface_changed(box);
+  ++impl_->surface_epoch;
+  impl_->surface_change = box;
 }
 
 void RoamMesh::residency_changed(const LatticeBox& box) {
@@ -129,8 +133,9 @@ glm::dvec3 RoamMesh::vertex_world(uint32_t slot) const {
 
 void RoamMesh::fixed_level_triangles(const FixedLevelOptions& options, FixedTriangles& out) const {
   SWARD_ASSERT(options.level >= 0 && options.level <= k_max_level, "level must be in [0, k_max_level]");
-  out.clear();
-  if (const auto& view = impl_->engine.view()) roam::collect_fixed_level(impl_->engine.tree(), *view, options, out);
+  const auto& view = impl_->engine.view();
+  if (!view) return out.clear();
+  roam::collect_fixed_level(impl_->engine.tree(), *view, options, {impl_->surface_epoch, impl_->surface_change}, out);
 }
 
 Expected<void> RoamMesh::validate() const {

@@ -10,10 +10,11 @@ namespace sward::roam {
 
 namespace {
 
-// A diamond's bound holds what lies below it, which reaches beyond it by less than its own size.
-bool may_depend(const TriangleCorners& c, const LatticeBox& box) {
+// A diamond's bound holds what lies below it, which reaches no farther beyond it than its own larger side. That of the
+// relief at the data's level also depends on slopes two samples around.
+bool may_depend(const TriangleCorners& c, const LatticeBox& box, int step) {
   const LatticePoint low = glm::min(c.apex, glm::min(c.left, c.right)), high = glm::max(c.apex, glm::max(c.left, c.right));
-  const LatticePoint reach = high - low;
+  const LatticePoint reach(std::max(high.x - low.x, high.y - low.y) + 3 * step);
   return low.x - reach.x <= box.last.x && low.y - reach.y <= box.last.y && high.x + reach.x >= box.first.x &&
          high.y + reach.y >= box.first.y;
 }
@@ -56,7 +57,7 @@ void RoamEngine::collapse_forbidden(uint32_t node, const LatticeBox& box) {
 
 // Heights and bounds; the nodes that may have changed are put into visits_, parents first.
 void RoamEngine::reread(uint32_t node, const LatticeBox& box) {
-  if (!may_depend(tree_.corners(node), box)) return;
+  if (!may_depend(tree_.corners(node), box, tree_.lattice().sample_step())) return;
   const Corners& c = tree_.corner[node];
   for (const uint32_t vertex : {c.apex, c.left, c.right}) {
     const LatticePoint p = tree_.vertices.lattice[vertex];
