@@ -25,7 +25,7 @@ struct RoamMesh::Impl {
   roam::RoamEngine engine;
   uint64_t revision = first_revision();
   uint64_t surface_epoch = revision;  // one more for every change of the surface's static data
-  LatticeBox surface_change;          // where the last of them was
+  LatticeBox surface_change = {};     // where the last of them was
 };
 
 Expected<RoamMesh> RoamMesh::create(const Bounds& bounds, const RoamOptions& options) {
