@@ -236,27 +236,34 @@ double largest_error_px(const Ply& ply, const Camera& camera, int& tested) {
   return largest;
 }
 
+// The cameras are far apart, so that with the morph on vertices are on their way in every frame: the bound holds, but
+// only that of a mesh at rest has to be useful.
 TEST_F(CliMesh, TheBoundHoldsForEverySample) {
   const std::vector<Camera> cameras = test_cameras();
   std::string poses = "time,x,y,z,yaw,pitch\n";
   for (size_t i = 0; i < cameras.size(); ++i) poses += cameras[i].row(double(i) / 60);
   cli::write_file(inputs() / "poses.csv", poses);
-  const std::string options = " --triangles 1500 --flight '" + (inputs() / "poses.csv").string() + "' ";
-  ASSERT_EQ(run("mesh " + scene() + options + "--timings t.csv").status, 0);
-  const auto rows = cli::read_csv(folder() / "t.csv");
-  std::vector<double> ratios;
-  for (size_t i = 0; i < cameras.size(); ++i) {
-    const Ply ply = mesh_at(int(i), options);
-    EXPECT_EQ(std::to_string(ply.triangles.size()), rows[i + 1][3]);
-    int tested = 0;
-    const double bound = std::stod(rows[i + 1][6]), error = largest_error_px(ply, cameras[i], tested);
-    EXPECT_GT(tested, 200) << "the camera looks at the map";
-    EXPECT_GT(error, 0);
-    EXPECT_LE(error, bound) << "frame " << i;
-    ratios.push_back(bound / error);
+  for (const std::string morph : {"", "--no-morph "}) {
+    const std::string options =
+        " --triangles 1500 " + morph + "--flight '" + (inputs() / "poses.csv").string() + "' ";
+    ASSERT_EQ(run("mesh " + scene() + options + "--timings t.csv").status, 0);
+    const auto rows = cli::read_csv(folder() / "t.csv");
+    std::vector<double> ratios;
+    for (size_t i = 0; i < cameras.size(); ++i) {
+      const Ply ply = mesh_at(int(i), options);
+      EXPECT_EQ(std::to_string(ply.triangles.size()), rows[i + 1][3]);
+      int tested = 0;
+      const double bound = std::stod(rows[i + 1][6]), error = largest_error_px(ply, cameras[i], tested);
+      EXPECT_GT(tested, 200) << "the camera looks at the map";
+      EXPECT_GT(error, 0);
+      EXPECT_LE(error, bound) << "frame " << i << " " << morph;
+      ratios.push_back(bound / error);
+    }
+    std::sort(ratios.begin(), ratios.end());
+    if (!morph.empty()) {
+      EXPECT_LE(ratios[ratios.size() / 2], 4) << "a bound must be useful too";
+    }
   }
-  std::sort(ratios.begin(), ratios.end());
-  EXPECT_LE(ratios[ratios.size() / 2], 4) << "a bound must be useful too";
 }
 
 // Raw units are not normalised: height = raw * scale + offset at every sample.

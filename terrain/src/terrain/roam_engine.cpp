@@ -54,7 +54,6 @@ Expected<void> RoamEngine::set_options(const RoamOptions& options) {
 Expected<RoamStats> RoamEngine::update(const View& view, std::optional<double> time_s) {
   if (auto valid = view.validate(); !valid) return tl::unexpected<Error>(valid.error());
   if (time_s && !std::isfinite(*time_s)) return fail("the time of an update must be finite");
-  if (time_s && now_ && *time_s < *now_) return fail("the time of an update must not run backwards");
   if (options_.time_cap_s > 0) {
     deadline_ = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                                                        std::chrono::duration<double>(options_.time_cap_s));
@@ -65,7 +64,7 @@ Expected<RoamStats> RoamEngine::update(const View& view, std::optional<double> t
   const bool new_view = fresh_ || !view_ || !same(*view_, view);
   now_ = time_s;
   from_nothing_ = false;
-  if (time_s) tree_.vertices.now = *time_s;
+  if (time_s) set_time(*time_s);
   if (new_view) {
     still_since_ = tree_.vertices.now;
     follow_eye(view.eye);
@@ -93,6 +92,17 @@ Expected<RoamStats> RoamEngine::update(const View& view, std::optional<double> t
   stats_.leaves = tree_.leaf_count();
   stats_.moving = uint32_t(motions_.size());
   return stats_;
+}
+
+// A clock that was set back begins anew: what moves arrives at once, and every slot is written with the new times.
+void RoamEngine::set_time(double time_s) {
+  VertexPool& v = tree_.vertices;
+  from_nothing_ = time_s < v.now;
+  v.now = time_s;
+  if (!from_nothing_) return;
+  still_since_ = time_s;
+  finish_motions();
+  v.rebase(v.origin);
 }
 
 uint32_t RoamEngine::split(uint32_t leaf) {

@@ -149,6 +149,7 @@ class RoamEngine {
   Ghost ghost_child(const Ghost& of, int turn, const Lanes& middle) const;
 
   // Morph: roam_morph.cpp.
+  void set_time(double time_s);
   bool morphs() const { return now_.has_value() && options_.morph_s > 0 && !options_.plain && !from_nothing_; }
   float fall_seconds() const;
   void rise(uint32_t node, double from_z);

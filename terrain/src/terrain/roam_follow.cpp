@@ -127,7 +127,7 @@ void RoamEngine::look_at_all() {
     visits_.push_back({tree_.child[visit.node], cull});
     visits_.push_back({tree_.child[visit.node] + 1, cull});
   }
-  from_nothing_ = fresh_;
+  from_nothing_ |= fresh_;
   fresh_ = false;
 }
 

@@ -60,8 +60,8 @@ class RoamMesh {
   RoamMesh& operator=(RoamMesh&&) noexcept;
   ~RoamMesh();
 
-  /// Adapts the mesh to a view. `time_s` is the host's clock in seconds, which does not run backwards: vertices move by
-  /// it (RoamOptions::morph_s). Fails, changing nothing, when the view or the time is not valid.
+  /// Adapts the mesh to a view. `time_s` is the host's clock in seconds: vertices move by it (RoamOptions::morph_s).
+  /// When it was set back, what moves arrives at once. Fails, changing nothing, when the view or the time is not valid.
   Expected<RoamStats> update(const View& view, double time_s);
   /// The same without a clock: every vertex stands at its final height at once.
   Expected<RoamStats> update(const View& view);
