@@ -31,12 +31,16 @@ inline const roam_support::Terrain& terrain() {
 }
 
 /// 200 m/s, 3 m above the ground, 60 frames a second, 1920 x 1080.
-inline sward::View low_view(int frame) {
+inline sward::View low_view(int frame, const sward::HeightField& field) {
   const double t = 10 + frame / 60.0;
   const double heading = 0.4 + 0.35 * std::sin(0.3 * t);
   const glm::dvec2 xy = glm::dvec2(-4000, -2500) + 200.0 * t * glm::dvec2(std::cos(0.5), std::sin(0.5)) +
                         120.0 * glm::dvec2(std::sin(0.3 * t), std::cos(0.2 * t));
-  return sward::View::look({xy, terrain().field->height(xy) + 3}, heading, -0.05, 0.87, {1920, 1080}, 0.5, 60000);
+  return sward::View::look({xy, field.height(xy) + 3}, heading, -0.05, 0.87, {1920, 1080}, 0.5, 60000);
+}
+
+inline sward::View low_view(int frame) {
+  return low_view(frame, *terrain().field);
 }
 
 /// CPU time of this thread: what other processes take does not count.

@@ -91,9 +91,9 @@ uint32_t find_node(const sward::roam::RoamTree& tree, uint32_t start, Wanted&& w
 }
 
 /// One operation; what it did wrong, or nothing.
-inline std::string step(Input& in, sward::roam::RoamEngine& engine) {
+inline std::string step(Input& in, sward::roam::RoamEngine& engine, double& clock) {
   const sward::roam::RoamTree& tree = engine.tree();
-  switch (in.byte() % 5) {
+  switch (in.byte() % 7) {
     case 0:
       (void)engine.set_options(read_options(in));
       return "";
@@ -112,6 +112,19 @@ inline std::string step(Input& in, sward::roam::RoamEngine& engine) {
       engine.split(leaf);
       return int(engine.visible_count()) - before == cost ? "" : "a split cost other than foretold";
     }
+    case 4: {
+      // With a clock: a new view, or the last one some time later.
+      clock += in.between(0, 0.2);
+      const bool still = in.byte() % 2 == 0 && engine.view();
+      if (!engine.update(still ? *engine.view() : read_view(in, tree.lattice()), clock)) return "";
+      return engine.visible_count() > engine.options().max_triangles ? "the budget is exceeded" : "";
+    }
+    case 5: {
+      const sward::LatticePoint first(in.word() * 8, in.word() * 8);
+      const sward::LatticeBox box{first, first + sward::LatticePoint(in.word() * 4, in.word() * 4)};
+      in.byte() % 2 ? engine.surface_changed(box) : engine.residency_changed(box);
+      return "";
+    }
     default: {
       const uint32_t node = find_node(tree, in.word(), [&](uint32_t n) { return tree.mergeable(n); });
       if (node == sward::roam::k_none) return "";
@@ -128,8 +141,9 @@ inline std::string run(std::span<const uint8_t> bytes) {
   const roam_support::Terrain& terrain = terrain_of_kind(in.byte());
   const sward::FieldSurface surface(*terrain.bounds);
   sward::roam::RoamEngine engine(surface, {});
+  double clock = 0;
   while (!in.empty()) {
-    if (std::string fault = step(in, engine); !fault.empty()) return fault;
+    if (std::string fault = step(in, engine, clock); !fault.empty()) return fault;
     if (const auto valid = engine.validate(); !valid) return valid.error().message;
   }
   return "";

@@ -22,7 +22,7 @@ TEST(RoamFuzz, SplitsAndMergesToTheEnd) {
   for (int kind = 0; kind < 5; ++kind) {
     std::vector<uint8_t> bytes{uint8_t(kind)};
     for (int i = 0; i < 150; ++i) bytes.insert(bytes.end(), {3, uint8_t(random.below(256)), uint8_t(random.below(8))});
-    for (int i = 0; i < 600; ++i) bytes.insert(bytes.end(), {4, uint8_t(random.below(256)), uint8_t(random.below(8))});
+    for (int i = 0; i < 600; ++i) bytes.insert(bytes.end(), {6, uint8_t(random.below(256)), uint8_t(random.below(8))});
     ASSERT_EQ(roam_driver::run(bytes), "") << "kind " << kind;
   }
 }

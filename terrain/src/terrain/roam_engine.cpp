@@ -48,6 +48,7 @@ Expected<void> RoamEngine::set_options(const RoamOptions& options) {
   }
   options_ = options;
   settled_ = false;
+  still_since_ = tree_.vertices.now;
   return {};
 }
 
@@ -79,7 +80,10 @@ Expected<RoamStats> RoamEngine::update(const View& view, std::optional<double> t
     settled_ = false;
   }
   new_to_rest_ = new_view && !options_.plain;
-  if (!changes_.empty()) read_surface_again();
+  if (!changes_.empty()) {
+    still_since_ = tree_.vertices.now;
+    read_surface_again();
+  }
   finish_motions();
   if (!settled_) {
     operations_ = 0;
@@ -87,6 +91,7 @@ Expected<RoamStats> RoamEngine::update(const View& view, std::optional<double> t
     time_checks_ = leaf_guard_steps_ = diamond_guard_steps_ = 0;
     settled_ = converge();
   }
+  if (stats_.capped) still_since_ = tree_.vertices.now;
   draws_.close();
   stats_.visible = visible_count();
   stats_.leaves = tree_.leaf_count();

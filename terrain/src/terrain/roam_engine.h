@@ -172,7 +172,7 @@ class RoamEngine {
   RoamOptions options_;
   std::optional<View> view_;
   std::optional<double> now_;   // seconds
-  double still_since_ = 0;      // the time of the last view that differed
+  double still_since_ = 0;      // the time of the last change of what is asked for
   Projection projection_;
   bool settled_ = false;  // the mesh is what view_ and options_ ask for
   bool fresh_ = true;     // nothing is known of the nodes

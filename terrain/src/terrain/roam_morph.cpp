@@ -37,7 +37,10 @@ float RoamEngine::fall_seconds() const {
 // The diamond has just been split; its centre was drawn at `from_z`.
 void RoamEngine::rise(uint32_t node, double from_z) {
   const uint32_t vertex = tree_.corner[tree_.child[node]].apex;
-  tree_.vertices.begin_motion(vertex, from_z, tree_.vertices.world[vertex].z, options_.morph_s);
+  const double left = still_since_ + k_rest_seconds - tree_.vertices.now;
+  const auto seconds = float(std::min(double(options_.morph_s), left));
+  if (double(seconds) < k_least_seconds) return refresh_diamond(node);
+  tree_.vertices.begin_motion(vertex, from_z, tree_.vertices.world[vertex].z, seconds);
   motions_.push_back({node, vertex});
 }
 
@@ -122,19 +125,20 @@ void RoamEngine::finish_falls_now() {
 void RoamEngine::finish_motions_now() {
   finish_falls_now();
   VertexPool& v = tree_.vertices;
-  const std::vector<Motion> motions = std::move(motions_);
-  motions_.clear();
-  for (const Motion& motion : motions) {
+  size_t kept = 0;
+  for (size_t i = 0; i < motions_.size(); ++i) {
+    const Motion motion = motions_[i];
     if (!v.alive[motion.vertex] || !v.moves(motion.vertex) || !tree_.is_split(motion.node)) continue;
     if (tree_.corner[tree_.child[motion.node]].apex != motion.vertex) continue;
     if (state_[motion.node].cull & k_falling) {
-      motions_.push_back(motion);
+      motions_[kept++] = motion;
       continue;
     }
     v.end_motion(motion.vertex);
     v.reread(tree_.surface(), motion.vertex);
     refresh_diamond(motion.node);
   }
+  motions_.resize(kept);
 }
 
 void RoamEngine::count_falling_surplus() {

@@ -1,0 +1,84 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+// Updates allocate nothing once they have seen a flight.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+#include "roam_support.h"
+
+namespace {
+long g_allocations = 0;
+}
+
+[[gnu::noinline]] static void* count_and_take(std::size_t size, std::size_t alignment) {
+  ++g_allocations;
+  if (void* memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] static void give_back(void* memory) {
+  std::free(memory);
+}
+
+void* operator new(std::size_t size) {
+  return count_and_take(size, alignof(std::max_align_t));
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return count_and_take(size, std::size_t(alignment));
+}
+void operator delete(void* memory) noexcept {
+  give_back(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  give_back(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  give_back(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  give_back(memory);
+}
+
+namespace sward {
+namespace {
+
+View view_of(const HeightField& field, int frame) {
+  // A round that ends where it began.
+  const double a = 6.283185307179586 * frame / 300;
+  const glm::dvec2 xy = 500.0 * glm::dvec2(std::cos(a), std::sin(a));
+  return View::look({xy, field.height(xy) + 12 + 8 * std::sin(3 * a)}, a + 1.6, -0.2, 0.9, {1280, 720}, 0.5, 1e5);
+}
+
+// Allocations in the last of several rounds.
+long last_round(const RoamOptions& options, bool timed) {
+  roam_support::TerrainOptions size;
+  size.columns = size.rows = 129;
+  const roam_support::Terrain terrain = roam_support::make_terrain(size);
+  RoamMesh mesh = RoamMesh::create(*terrain.bounds, options).value();
+  long before = 0;
+  uint32_t changes = 0;
+  for (int frame = 0; frame < 1200; ++frame) {
+    if (frame == 900) before = g_allocations;
+    const View view = view_of(*terrain.field, frame % 300);
+    const auto stats = timed ? mesh.update(view, frame / 60.0) : mesh.update(view);
+    EXPECT_TRUE(stats.has_value());
+    if (frame >= 900) changes += stats->splits + stats->merges;
+  }
+  EXPECT_GT(changes, 1000u);
+  return g_allocations - before;
+}
+
+TEST(RoamMemory, UpdatesAllocateNothingInSteadyState) {
+  RoamOptions options;
+  options.max_triangles = 2000;
+  EXPECT_EQ(last_round(options, false), 0);
+  EXPECT_EQ(last_round(options, true), 0);
+  options.plain = true;
+  EXPECT_EQ(last_round(options, false), 0);
+}
+
+}  // namespace
+}  // namespace sward
