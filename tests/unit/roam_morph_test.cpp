@@ -275,7 +275,7 @@ TEST(RoamMorph, ComesToRestWithinHalfASecond) {
   EXPECT_GT(moved, 500);
 }
 
-TEST(RoamMorph, StaysWithinTheBudget) {
+TEST(RoamMorph, StaysWithinTheBudgetAndValid) {
   for (const bool detail : {false, true}) {
     roam_support::TerrainOptions field;
     if (detail) field.columns = field.rows = 33, field.spacing = 20, field.detail = true;
@@ -293,6 +293,8 @@ TEST(RoamMorph, StaysWithinTheBudget) {
       const auto stats = mesh.update(view, time);
       ASSERT_TRUE(stats.has_value());
       ASSERT_LE(stats->visible, options.max_triangles) << "frame " << frame;
+      const auto valid = mesh.validate();
+      ASSERT_TRUE(valid.has_value()) << "frame " << frame << ": " << valid.error().message;
     }
   }
 }

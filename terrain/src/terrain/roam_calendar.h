@@ -24,7 +24,7 @@ struct TickUnits {
 /// enough.
 class Calendar {
  public:
-  static constexpr uint32_t k_span = 1024;  ///< Ticks ahead that can be entered.
+  static constexpr uint32_t k_span = 4096;  ///< Ticks ahead that can be entered.
   /// Least tick: smaller numbers are free for marks in the nodes' records.
   static constexpr uint32_t k_first_tick = 16;
 

@@ -171,18 +171,18 @@ class RoamEngine {
   RoamTree tree_;
   RoamOptions options_;
   std::optional<View> view_;
-  std::optional<double> now_;   // seconds
-  double still_since_ = 0;      // the time of the last change of what is asked for
+  std::optional<double> now_;  // seconds
+  double still_since_ = 0;     // the time of the last change of what is asked for
   Projection projection_;
-  bool settled_ = false;  // the mesh is what view_ and options_ ask for
-  bool fresh_ = true;     // nothing is known of the nodes
+  bool settled_ = false;       // the mesh is what view_ and options_ ask for
+  bool fresh_ = true;          // nothing is known of the nodes
   bool from_nothing_ = false;  // the mesh of this update has no past to move from
   RoamStats stats_;
 
   NodeStates state_;
   std::vector<uint32_t> lingering_, lingered_;  // visible leaves that may have gone out of sight, the older ones second
   uint32_t lingering_age_ = 0;
-  bool new_to_rest_ = false;  // the view of the last update was new
+  bool new_to_rest_ = false;   // the view of the last update was new
   BucketQueue split_queue_;    // visible leaves near the balance
   BucketQueue merge_queue_;    // mergeable diamonds near the balance, by their lower node, and all that are out
   BucketQueue blocked_queue_;  // visible leaves near the balance that the surface does not allow to split
@@ -193,7 +193,8 @@ class RoamEngine {
   Calendar out_calendar_, leaf_calendar_, diamond_calendar_;
   TickUnits units_, safe_units_;
   float peak_metres_ = 0, peak_radians_ = 0;  // of the last seconds, per update
-  double safe_ticks_ = 0;  // until every entry was made with units_
+  TickUnits least_units_, last_least_units_;  // of the present k_span ticks and of those before
+  double safe_ticks_ = 0;                     // that the present ones still take
   uint32_t leaf_guard_steps_ = 0, diamond_guard_steps_ = 0;
   uint32_t hidden_merges_left_ = 0;
   uint32_t hot_mark_ = 1;  // of nodes that are looked at in the next update: 1 or 2

@@ -23,9 +23,9 @@ constexpr double k_rebase_distance = 1000.0, k_rebase_seconds = 2048.0;
 // Share of the visible triangles that have to stay in sight for the mesh to be worth keeping.
 constexpr double k_worth_keeping = 0.2;
 // The guards' places about the balance, and how far they may be from them without being moved.
-constexpr float k_leaf_place = 0.994f, k_leaf_highest = 0.999f, k_leaf_lowest = 0.985f;
+constexpr float k_leaf_place = 0.996f, k_leaf_highest = 0.999f, k_leaf_lowest = 0.985f;
 constexpr float k_diamond_place = 0.998f, k_diamond_lowest = 0.992f, k_diamond_highest = 1.008f;
-constexpr float k_first_guard_ticks = 4, k_guard_ticks_a_frame = 3;
+constexpr float k_first_guard_ticks = 2, k_guard_ticks_a_frame = 3;
 
 double angle_between(const glm::dmat3& a, const glm::dmat3& b) {
   double sum = 0;
@@ -60,30 +60,37 @@ bool RoamEngine::advance_clocks(const View& from, const View& to) {
   const double radians = angle_between(from.eye_from_world, to.eye_from_world);
   const double ticks = std::max(metres / double(safe_units_.metres), radians / double(safe_units_.radians));
   tune_units(float(metres), float(radians));
-  if (!(ticks < Calendar::k_span) || out_calendar_.old() || leaf_calendar_.old() || diamond_calendar_.old()) return false;
+  if (!(ticks < Calendar::k_span) || out_calendar_.old() || leaf_calendar_.old() || diamond_calendar_.old())
+    return false;
   out_calendar_.advance(ticks);
   leaf_calendar_.advance(ticks);
   diamond_calendar_.advance(ticks);
   safe_ticks_ -= ticks;
-  if (safe_ticks_ <= 0) safe_units_ = units_;
+  if (safe_ticks_ <= 0) {
+    safe_ticks_ = Calendar::k_span;
+    last_least_units_ = least_units_;
+    least_units_ = units_;
+  }
   return true;
 }
 
 // Units are a share of the largest motions of the last seconds: too large ones would make what holds for less than a
-// tick hot, unlike shares would let one kind of motion run the clock for all. Lowering a unit is free; raising one takes
-// effect when all older entries are gone.
+// tick hot, unlike shares would let one kind of motion run the clock for all. Lowering a unit is free; raising one
+// takes effect when all older entries are gone: an entry lives for up to k_span ticks, so the least units of the
+// present and of the last k_span ticks are kept.
 void RoamEngine::tune_units(float metres, float radians) {
-  constexpr float k_ticks_a_frame = 3, k_forget = 0.997f, k_lowered = 0.6f, k_raised = 3;
+  constexpr float k_ticks_a_frame = 5, k_forget = 0.997f, k_lowered = 0.6f, k_raised = 3;
   const auto follow = [&](float& peak, float value, float least, float most, float& unit, float& safe) {
     peak = std::max(value, k_forget * peak);
     const float wanted = std::clamp(peak / k_ticks_a_frame, least, most);
     if (wanted > k_lowered * unit && wanted < k_raised * unit) return;
-    if (wanted > unit) safe_ticks_ = Calendar::k_span;
     unit = wanted;
     safe = std::min(safe, unit);
   };
-  follow(peak_metres_, metres, 1e-4f, 1e4f, units_.metres, safe_units_.metres);
-  follow(peak_radians_, radians, 1e-6f, 0.5f, units_.radians, safe_units_.radians);
+  follow(peak_metres_, metres, 1e-4f, 1e4f, units_.metres, least_units_.metres);
+  follow(peak_radians_, radians, 1e-6f, 0.5f, units_.radians, least_units_.radians);
+  safe_units_.metres = std::min(last_least_units_.metres, least_units_.metres);
+  safe_units_.radians = std::min(last_least_units_.radians, least_units_.radians);
 }
 
 // Back to the root mesh: after a jump it is cheaper to refine from there than to give the old mesh up.
@@ -112,7 +119,8 @@ void RoamEngine::look_at_all() {
   hot_mark_ ^= 3;
   leaf_guard_ = 0;
   diamond_guard_ = RoamMesh::k_artificial_max;
-  safe_units_ = units_;
+  safe_units_ = least_units_ = last_least_units_ = units_;
+  safe_ticks_ = Calendar::k_span;
   lingering_.clear();
   lingered_.clear();
   visits_.clear();
@@ -237,7 +245,8 @@ void RoamEngine::prefetch_bases(size_t place) const {
     __builtin_prefetch(&tree_.corner[base]);
     __builtin_prefetch(&state_[base]);
   }
-  if (const uint32_t base = base_at(k_vertex_ahead); base != k_none) __builtin_prefetch(&seen_[tree_.corner[base].apex]);
+  if (const uint32_t base = base_at(k_vertex_ahead); base != k_none)
+    __builtin_prefetch(&seen_[tree_.corner[base].apex]);
 }
 
 void RoamEngine::look_at_outs() {
@@ -317,8 +326,7 @@ void RoamEngine::lower_leaf_guard() {
   const double ticks = double(k_first_guard_ticks) * std::exp2(double(leaf_guard_steps_++));
   const float lowest = options_.target_px;
   const bool all = leaf_calendar_.empty() || ticks >= Calendar::k_span;
-  leaf_guard_ =
-      all ? lowest : std::max(lowest, leaf_guard_ * float(std::exp(-ticks * double(safe_units_.log_guard))));
+  leaf_guard_ = all ? lowest : std::max(lowest, leaf_guard_ * float(std::exp(-ticks * double(safe_units_.log_guard))));
   leaf_calendar_.advance(all ? 2.0 * Calendar::k_span : ticks);
   look_at_leaves();
 }
@@ -348,7 +356,8 @@ void RoamEngine::follow_balance() {
   } else if (leaf < k_leaf_lowest * now) {
     leaf = k_leaf_place * now;
   }
-  if (leaf < leaf_guard_) leaf_calendar_.advance(std::log(double(leaf_guard_) / double(leaf)) / double(safe_units_.log_guard));
+  if (leaf < leaf_guard_)
+    leaf_calendar_.advance(std::log(double(leaf_guard_) / double(leaf)) / double(safe_units_.log_guard));
   leaf_guard_ = leaf;
   float diamond = diamond_guard_;
   if (diamond < k_diamond_lowest * now) {

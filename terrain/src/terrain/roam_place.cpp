@@ -12,7 +12,7 @@ namespace sward::roam {
 namespace {
 
 // A leaf that is about to leave the view may be drawn for so many ticks more, while the view moves.
-constexpr float k_patience = 24;
+constexpr float k_patience = 80;
 
 }  // namespace
 
@@ -177,7 +177,9 @@ void RoamEngine::place_diamond(uint32_t diamond) {
     const Reading reading = read(half);
     key = std::max(key, reading.priority);
     const float above_ticks = projection_.above_ticks(seen(half), reading, diamond_guard_, units_);
-    if (above_ticks > 0) ticks = std::max(ticks, until_side_changes(half, diamond, reading, above_ticks));
+    // Without patience: out of sight it has no priority, which is not above the guard.
+    if (above_ticks > 0)
+      ticks = std::max(ticks, std::min(above_ticks, projection_.side_ticks(seen(half), reading, units_)));
   }
   s.diamond_due = 0;
   if (!options_.plain && in_sight) {

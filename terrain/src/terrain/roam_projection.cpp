@@ -6,9 +6,9 @@
 // Sides. A point R metres away moves by at most m = T + A (R + T) in the eye's axes, and its distance to a halfspace
 // changes by at most m.
 //
-// Priorities. p = 2 e N / D; N the length of V = (x, y), the largest of the corners; D = (w - C e)(w + C e), w the least
-// of the corners. V is bilinear: x = (row_x ^ row_w)(vertical, P) = (row_x x row_w) . (vertical x P), y alike. First
-// order, for the corner a of the largest N and the corner b of the least w, with u = V / N:
+// Priorities. p = 2 e N / D; N the length of V = (x, y), the largest of the corners; D = (w - C e)(w + C e), w the
+// least of the corners. V is bilinear: x = (row_x ^ row_w)(vertical, P) = (row_x x row_w) . (vertical x P), y alike.
+// First order, for the corner a of the largest N and the corner b of the least w, with u = V / N:
 //   d ln p = u . dV / N - (2 w / D) dw
 // Travel by t gives dV = -(grad x, grad y) t, dw = -row_w t; a turn by the vector o gives dx = o . ((row_x x row_w) x
 // (vertical x P)), dw = o . (row_w x P). So the rate is at most |G_t| a metre and |G_o| a radian, where G_t and G_o add
@@ -91,6 +91,7 @@ Lanes Projection::project(glm::dvec3 world) const {
 // What a tick may change a wedgie's priority by: L and Q upwards and downwards, and the ticks for which they hold.
 struct Projection::Change {
   float linear_up = 0, linear_down = 0, square_up = 0, square_down = 0, valid = 0;
+  float range = 0;  // of the farthest corner, metres
 };
 
 float Projection::side_ticks(const Seen& seen, const Reading& r, const TickUnits& units) const {
@@ -129,20 +130,22 @@ Projection::Change Projection::change_of(const Seen& seen, const Reading& r, con
   float spread = 0;
   for (int i = 0; i < 3; ++i) {
     const float dx = seen.lanes[i]->x - la.x, dy = seen.lanes[i]->y - la.y;
-    spread = std::max(spread, 2 * std::sqrt(dx * dx + dy * dy) * inverse);
+    spread = std::max(spread, dx * dx + dy * dy);
   }
+  spread = 2 * std::sqrt(spread) * inverse;
   Change c;
   c.linear_down = glm::length(travel) * units.metres + glm::length(turn) * units.radians +
                   thickness_per_radian_ * inverse * units.radians +
                   2 * reach * r.bound * depth_rate_ * units.radians / (margin * (w + reach));
-  c.linear_up = c.linear_down + spread * k +
-                side * units.radians * (thickness_per_metre_ * inverse + 2 * depth_rate_ / margin);
+  c.linear_up =
+      c.linear_down + spread * k + side * units.radians * (thickness_per_metre_ * inverse + 2 * depth_rate_ / margin);
   const float reach_turn = r.bound * depth_rate_ * units.radians / margin;
   const float curved =
       thickness_per_metre_ * more * inverse + 2 * depth_rate_ * more / margin + 2 * reach_turn * reach_turn;
   c.square_up = 0.5f * k * k + 2 * h * h + curved;
   c.square_down = k * k + curved;
   c.valid = 0.5f / std::max(k, h);
+  c.range = range;
   return c;
 }
 
@@ -161,7 +164,7 @@ float Projection::below_ticks(const Seen& seen, const Reading& r, float guard, c
   if (!(r.priority > 0) || r.near_inside <= 0) return 0;
   const Change c = change_of(seen, r, units);
   const float limit = std::log(guard / (r.priority * k_rounding));
-  const float near_ticks = side_ticks(seen, {r.bound, r.near_inside, r.near_inside, r.priority}, units);
+  const float near_ticks = r.near_inside / (units.metres + units.radians * (c.range + r.near_inside));
   return std::min(std::min(solve(c.linear_up, c.square_up, limit), limit / units.log_guard),
                   std::min(c.valid, near_ticks));
 }

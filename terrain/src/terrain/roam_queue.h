@@ -24,13 +24,13 @@ inline constexpr CullFlags k_falling = 0x40;
 /// What a view makes of a node, and its place in the split queue (a leaf, or half of a falling diamond) or the merge
 /// queue (a split node, for its diamond). Two share a cache line, as siblings do.
 struct alignas(32) NodeState {
-  static constexpr uint16_t k_unqueued = 0xffff;
+  static constexpr uint32_t k_unqueued = 0xffffffffu;
   uint32_t previous = k_none, next = k_none;
   float key = 0;
   float priority = -1;       ///< Of the node's own triangle when last looked at, pixels; -1 when it was out.
   uint32_t due = 0;          ///< Tick or mark at which the node is looked at again; 0: no such time.
   uint32_t diamond_due = 0;  ///< The same for the diamond that the node stands for.
-  uint16_t bucket = k_unqueued;
+  uint32_t bucket = k_unqueued;
   CullFlags cull = k_out;
   bool half_queued = false;  ///< Split node: its diamond is in the merge queue.
   bool held = false;         ///< Leaf: its parent is falling and stands for it.
@@ -40,19 +40,19 @@ struct alignas(32) NodeState {
 };
 using NodeStates = std::vector<NodeState>;
 
-/// Priority queue over keys >= 0 with 256 buckets an octave, cut from the float's own bits, under a two-level bitmap:
+/// Priority queue over keys >= 0 with 2048 buckets an octave, cut from the float's own bits, under a two-level bitmap:
 /// insertion and removal take constant time, the extreme key is exact (its bucket is searched). Bucket 0 holds what
 /// has no priority: nodes that are not visible (key < 0).
 class BucketQueue {
  public:
-  static uint16_t bucket_of(float key) {
-    return key < 0 ? uint16_t(0) : uint16_t(1 + (std::bit_cast<uint32_t>(key + 0.0f) >> k_shift));
+  static uint32_t bucket_of(float key) {
+    return key < 0 ? uint32_t(0) : uint32_t(1 + (std::bit_cast<uint32_t>(key + 0.0f) >> k_shift));
   }
 
   BucketQueue() : heads_(k_buckets, k_none) {}
 
   void insert(NodeStates& nodes, uint32_t node, float key) {
-    const uint16_t bucket = bucket_of(key);
+    const uint32_t bucket = bucket_of(key);
     const uint32_t head = heads_[bucket];
     nodes[node].key = key;
     nodes[node].bucket = bucket;
@@ -66,7 +66,7 @@ class BucketQueue {
   }
 
   void remove(NodeStates& nodes, uint32_t node) {
-    const uint16_t bucket = nodes[node].bucket;
+    const uint32_t bucket = nodes[node].bucket;
     const uint32_t previous = nodes[node].previous, next = nodes[node].next;
     if (next != k_none) nodes[next].previous = previous;
     if (previous != k_none) {
@@ -103,10 +103,10 @@ class BucketQueue {
   }
 
  private:
-  static constexpr int k_shift = 15;
-  static constexpr int k_buckets = 1 << 16;
+  static constexpr int k_shift = 12;
+  static constexpr int k_buckets = 1 << 19;
 
-  void clear_bit(uint16_t bucket) {
+  void clear_bit(uint32_t bucket) {
     uint64_t& word = words_[bucket >> 6];
     word &= ~(uint64_t(1) << (bucket & 63));
     if (word == 0) summary_[bucket >> 12] &= ~(uint64_t(1) << (bucket >> 6 & 63));
