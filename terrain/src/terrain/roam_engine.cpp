@@ -95,7 +95,7 @@ Expected<RoamStats> RoamEngine::update(const View& view, std::optional<double> t
   draws_.close();
   stats_.visible = visible_count();
   stats_.leaves = tree_.leaf_count();
-  stats_.moving = uint32_t(motions_.size());
+  stats_.moving = moving_count();
   return stats_;
 }
 

@@ -213,6 +213,8 @@ class RoamEngine {
     uint32_t node;  // half of the diamond whose centre moves
     uint32_t vertex;
   };
+  bool lasts(const Motion& motion) const;
+  uint32_t moving_count() const;
   std::vector<Motion> motions_;
   int64_t falling_surplus_ = 0;  // drawn triangles that are gone once all falls have ended
 

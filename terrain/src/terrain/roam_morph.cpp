@@ -79,7 +79,20 @@ void RoamEngine::stop_fall(uint32_t node) {
     }
   }
   // Its entry in motions_ stays.
-  v.begin_motion(vertex, v.drawn_z(vertex), v.world[vertex].z, options_.morph_s > 0 ? options_.morph_s : 1e-3f);
+  const double left = still_since_ + k_rest_seconds - v.now;
+  const double seconds = std::max(std::min(double(options_.morph_s), left), k_least_seconds);
+  v.begin_motion(vertex, v.drawn_z(vertex), v.world[vertex].z, float(seconds));
+}
+
+// False when the diamond is gone or its centre rests.
+bool RoamEngine::lasts(const Motion& motion) const {
+  const VertexPool& v = tree_.vertices;
+  return v.alive[motion.vertex] && v.moves(motion.vertex) && tree_.is_split(motion.node) &&
+         tree_.corner[tree_.child[motion.node]].apex == motion.vertex;
+}
+
+uint32_t RoamEngine::moving_count() const {
+  return uint32_t(std::ranges::count_if(motions_, [this](const Motion& motion) { return lasts(motion); }));
 }
 
 // Motions that are over, or whose diamond is gone.
@@ -87,8 +100,7 @@ void RoamEngine::finish_motions() {
   VertexPool& v = tree_.vertices;
   for (size_t i = 0; i < motions_.size();) {
     const Motion motion = motions_[i];
-    const bool lives = v.alive[motion.vertex] && v.moves(motion.vertex) && tree_.is_split(motion.node) &&
-                       tree_.corner[tree_.child[motion.node]].apex == motion.vertex;
+    const bool lives = lasts(motion);
     if (lives && !v.arrived(motion.vertex) && morphs()) {
       ++i;
       continue;
@@ -144,7 +156,8 @@ void RoamEngine::finish_motions_now() {
 void RoamEngine::count_falling_surplus() {
   falling_surplus_ = 0;
   for (const Motion& motion : motions_)
-    if (tree_.is_split(motion.node) && (state_[motion.node].cull & k_falling)) falling_surplus_ += merge_gain(motion.node);
+    if (tree_.is_split(motion.node) && (state_[motion.node].cull & k_falling))
+      falling_surplus_ += merge_gain(motion.node);
 }
 
 }  // namespace sward::roam

@@ -302,9 +302,7 @@ RoamEngine::Ghost RoamEngine::ghost_child(const Ghost& of, int turn, const Lanes
   child.level = of.level + 1;
   child.cover = cover_of(tree_.lattice(), child.corners, of.cover);
   const float bound = tree_.surface().bound(centre_of(child.corners), child.level);
-  child.cull = child.cover == Cover::padding
-                   ? k_out
-                   : sees(child, bound, of.cull);
+  child.cull = child.cover == Cover::padding ? k_out : sees(child, bound, of.cull);
   return child;
 }
 

@@ -13,14 +13,16 @@ namespace {
 // A diamond's bound holds what lies below it, which reaches no farther beyond it than its own larger side. That of the
 // relief at the data's level also depends on slopes two samples around.
 bool may_depend(const TriangleCorners& c, const LatticeBox& box, int step) {
-  const LatticePoint low = glm::min(c.apex, glm::min(c.left, c.right)), high = glm::max(c.apex, glm::max(c.left, c.right));
+  const LatticePoint low = glm::min(c.apex, glm::min(c.left, c.right)),
+                     high = glm::max(c.apex, glm::max(c.left, c.right));
   const LatticePoint reach(std::max(high.x - low.x, high.y - low.y) + 3 * step);
   return low.x - reach.x <= box.last.x && low.y - reach.y <= box.last.y && high.x + reach.x >= box.first.x &&
          high.y + reach.y >= box.first.y;
 }
 
 bool meets(const TriangleCorners& c, const LatticeBox& box) {
-  const LatticePoint low = glm::min(c.apex, glm::min(c.left, c.right)), high = glm::max(c.apex, glm::max(c.left, c.right));
+  const LatticePoint low = glm::min(c.apex, glm::min(c.left, c.right)),
+                     high = glm::max(c.apex, glm::max(c.left, c.right));
   return low.x <= box.last.x && low.y <= box.last.y && high.x >= box.first.x && high.y >= box.first.y;
 }
 
@@ -45,7 +47,8 @@ void RoamEngine::read_surface_again() {
   // What could not be split may be by now.
   if (options_.plain) return;
   visits_.clear();
-  for (uint32_t node = 0; (node = blocked_queue_.highest(state_)) != k_none; visits_.push_back({node, 0})) unplace(node);
+  for (uint32_t node = 0; (node = blocked_queue_.highest(state_)) != k_none; visits_.push_back({node, 0}))
+    unplace(node);
   for (const Visit& visit : visits_) place(visit.node, read(visit.node));
 }
 

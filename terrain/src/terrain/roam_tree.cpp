@@ -148,7 +148,8 @@ void RoamTree::reread(uint32_t node) {
 void RoamTree::add_roots() {
   const glm::ivec2 squares = lattice_.root_squares;
   for (int row = 0; row <= squares.y; ++row)
-    for (int column = 0; column <= squares.x; ++column) vertices.add(*surface_, LatticePoint{column, row} * k_root_side);
+    for (int column = 0; column <= squares.x; ++column)
+      vertices.add(*surface_, LatticePoint{column, row} * k_root_side);
   const auto slot = [&](int column, int row) { return uint32_t(row * (squares.x + 1) + column); };
   for (int row = 0; row < squares.y; ++row) {
     for (int column = 0; column < squares.x; ++column) {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <sward/terrain/surface.h>
 #include <sward/terrain/fixed_triangles.h>
 #include <sward/terrain/roam_mesh.h>
+#include <sward/terrain/surface.h>
 #include <algorithm>
 #include <array>
 #include <cstdint>

@@ -95,7 +95,8 @@ class Validator {
       const uint32_t slot = e_.draws_.slot(node);
       const Corners& c = t_.corner[node];
       const auto drawn = e_.draws_.indices();
-      require(slot < e_.draws_.count() && e_.draws_.nodes()[slot] == node, node, "has another's place in the draw list");
+      require(slot < e_.draws_.count() && e_.draws_.nodes()[slot] == node, node,
+              "has another's place in the draw list");
       require(drawn[3 * slot] == c.apex && drawn[3 * slot + 1] == c.left && drawn[3 * slot + 2] == c.right, node,
               "is drawn with other corners");
     }

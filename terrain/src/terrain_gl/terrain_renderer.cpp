@@ -10,7 +10,13 @@ namespace sward {
 namespace {
 
 /// Uniform locations of terrain.vert.glsl and terrain.frag.glsl.
-enum Location : GLint { k_origin_from_eye = 0, k_base_map_transform, k_slope_map_transform, k_data_rectangle, k_morph_time };
+enum Location : GLint {
+  k_origin_from_eye = 0,
+  k_base_map_transform,
+  k_slope_map_transform,
+  k_data_rectangle,
+  k_morph_time
+};
 
 /// Takes positions relative to the eye to texture coordinates of a map whose v counts from the north: uv = xy * p + zw.
 glm::vec4 map_transform(const glm::dvec3& eye, const glm::dvec2& map_min, const glm::dvec2& map_size) {

@@ -18,7 +18,9 @@ struct Error {
 template <class T>
 using Expected = tl::expected<T, Error>;
 
-inline tl::unexpected<Error> fail(std::string message) { return tl::unexpected<Error>(Error{std::move(message)}); }
+inline tl::unexpected<Error> fail(std::string message) {
+  return tl::unexpected<Error>(Error{std::move(message)});
+}
 
 /// Progress of long work: `done` in [0, 1]. Called from the thread that called the long function, at most some hundred
 /// times. An empty function is allowed everywhere.

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
-#include <span>
 #include <sward/terrain/bounds.h>
 #include <sward/terrain/fixed_triangles.h>
 #include <sward/terrain/surface.h>
 #include <sward/terrain/view.h>
+#include <memory>
+#include <span>
 
 namespace sward {
 
@@ -29,13 +29,13 @@ struct RoamOptions {
 
 /// Counts of one update.
 struct RoamStats {
-  uint32_t visible = 0;        ///< Triangles drawn; never above the budget.
-  uint32_t leaves = 0;         ///< All leaves, visible or not.
-  uint32_t splits = 0;         ///< Diamonds split in this update.
+  uint32_t visible = 0;  ///< Triangles drawn; never above the budget.
+  uint32_t leaves = 0;   ///< All leaves, visible or not.
+  uint32_t splits = 0;   ///< Diamonds split in this update.
   uint32_t merges = 0;
-  uint32_t looked_at = 0;      ///< Nodes whose wedgie was projected anew.
-  uint32_t moving = 0;         ///< Vertices between two heights.
-  bool capped = false;         ///< The time cap ended the update early.
+  uint32_t looked_at = 0;  ///< Nodes whose wedgie was projected anew.
+  uint32_t moving = 0;     ///< Vertices between two heights.
+  bool capped = false;     ///< The time cap ended the update early.
 };
 
 /// A vertex as the GPU gets it, relative to RoamMesh::origin(). Slots are stable while the vertex lives.
@@ -69,8 +69,8 @@ class RoamMesh {
   /// Heights or bounds have changed within the box (an edit): they are read again in the next update. Cost: that of the
   /// mesh there.
   void surface_changed(const LatticeBox& box);
-  /// Only what can be split has changed within the box (a world has loaded or dropped a part): in the next update splits
-  /// that are not allowed any more are undone, and leaves that could not be split are tried again.
+  /// Only what can be split has changed within the box (a world has loaded or dropped a part): in the next update
+  /// splits that are not allowed any more are undone, and leaves that could not be split are tried again.
   void residency_changed(const LatticeBox& box);
 
   /// Changes the budget or the target; takes effect at the next update. Fails as create does.
