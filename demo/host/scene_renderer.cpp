@@ -8,14 +8,11 @@
 
 #include "host/gpu_timer.h"
 #include "host/scene_frame.h"
+#include "host/stopwatch.h"
 
 namespace sward::host {
 
 namespace {
-
-double ms_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-}
 
 // What is compiled from shaders, so that a reload can build it aside.
 struct Programs {
@@ -41,7 +38,9 @@ Expected<Programs> build_programs(const std::vector<Layer>& layers, const gl::Sh
 
 }  // namespace
 
-bool gpu_can_time() { return !gl::software_renderer(); }
+bool gpu_can_time() {
+  return !gl::software_renderer();
+}
 
 struct SceneRenderer::Impl {
   const SceneTerrain& terrain;

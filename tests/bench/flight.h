@@ -11,8 +11,8 @@
 
 #include "roam_support.h"
 
-/// What benchmarks near the ground share: 4097 x 4097 samples at 5 m, the low leg of the flight of roam_bench.cpp, the
-/// clock and the figures reported.
+/// What benchmarks of flights share: 4097 x 4097 samples at 5 m, the course of roam_bench.cpp's flight and its low leg,
+/// the clock and the figures reported.
 namespace flight {
 
 constexpr int k_frames = 600;
@@ -30,13 +30,17 @@ inline const roam_support::Terrain& terrain() {
   return made;
 }
 
-/// 200 m/s, 3 m above the ground, 60 frames a second, 1920 x 1080.
-inline sward::View low_view(int frame, const sward::HeightField& field) {
-  const double t = 10 + frame / 60.0;
+/// At 200 m/s on a winding course, so high above the ground and pitched so far (radians), 1920 x 1080.
+inline sward::View view_at(double t, double above, double pitch, const sward::HeightField& field) {
   const double heading = 0.4 + 0.35 * std::sin(0.3 * t);
   const glm::dvec2 xy = glm::dvec2(-4000, -2500) + 200.0 * t * glm::dvec2(std::cos(0.5), std::sin(0.5)) +
                         120.0 * glm::dvec2(std::sin(0.3 * t), std::cos(0.2 * t));
-  return sward::View::look({xy, field.height(xy) + 3}, heading, -0.05, 0.87, {1920, 1080}, 0.5, 60000);
+  return sward::View::look({xy, field.height(xy) + above}, heading, pitch, 0.87, {1920, 1080}, 0.5, 60000);
+}
+
+/// 3 m above the ground, 60 frames a second.
+inline sward::View low_view(int frame, const sward::HeightField& field) {
+  return view_at(10 + frame / 60.0, 3, -0.05, field);
 }
 
 inline sward::View low_view(int frame) {

@@ -12,24 +12,9 @@
 
 #include "../../terrain/src/terrain/roam_engine.h"
 #include "../../terrain/src/terrain/worker_pool.h"
+#include "counted_allocations.h"
 #include "fixed_level_reference.h"
 #include "roam_support.h"
-
-namespace {
-std::atomic<long> g_allocations = 0;
-}
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++g_allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace {
 

@@ -49,4 +49,9 @@ Expected<std::vector<host::FlightFrame>> make_path(const PathOptions& options, c
   return frames;
 }
 
+Expected<void> check_frame(size_t at, const std::vector<host::FlightFrame>& path) {
+  if (at < path.size()) return {};
+  return fail("--at " + std::to_string(at) + ": the flight has frames 0 to " + std::to_string(path.size() - 1));
+}
+
 }  // namespace sward::tool

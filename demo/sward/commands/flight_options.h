@@ -23,5 +23,7 @@ void add_path_options(CLI::App& app, PathOptions& options);
 Expected<void> check_path(const PathOptions& options);
 /// Loads or computes the frames over the field.
 Expected<std::vector<host::FlightFrame>> make_path(const PathOptions& options, const HeightField& field);
+/// Fails when the path has no frame of that number (--at).
+Expected<void> check_frame(size_t at, const std::vector<host::FlightFrame>& path);
 
 }  // namespace sward::tool

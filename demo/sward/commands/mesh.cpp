@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "host/scene_frame.h"
+#include "host/stopwatch.h"
 #include "sward/commands/commands.h"
 #include "sward/commands/flight_options.h"
 #include "sward/commands/mesh_world.h"
@@ -81,10 +82,6 @@ class SlotBuffer {
   size_t written_ = 0;
 };
 
-double ms_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-}
-
 Expected<MeshRow> run_frame(const host::FlightFrame& at, host::SceneFrame& frame, SlotBuffer& buffer) {
   const View& view = at.view;
   MeshRow row;
@@ -92,11 +89,11 @@ Expected<MeshRow> run_frame(const host::FlightFrame& at, host::SceneFrame& frame
   auto stats = frame.mesh().update(view, at.time_s);
   if (!stats) return tl::unexpected(stats.error());
   buffer.write(frame.mesh());
-  row.update_ms = ms_since(update_begin);
+  row.update_ms = host::ms_since(update_begin);
   row.roam = *stats;
   const auto cut_begin = std::chrono::steady_clock::now();
   row.fixed_triangles = frame.cut_triangles(view);
-  row.fixed_level_ms = ms_since(cut_begin);
+  row.fixed_level_ms = host::ms_since(cut_begin);
   row.bound_px = frame.mesh().bound_px();
   return row;
 }
@@ -136,9 +133,8 @@ Expected<void> mesh(const MeshOptions& options) {
   if (!terrain) return tl::unexpected(terrain.error());
   auto path = make_path(options.path, (*terrain)->field);
   if (!path) return tl::unexpected(path.error());
-  if (options.at && *options.at >= path->size())
-    return fail("--at " + std::to_string(*options.at) + ": the flight has frames 0 to " +
-                std::to_string(path->size() - 1));
+  if (options.at)
+    if (auto checked = check_frame(*options.at, *path); !checked) return checked;
 
   RoamOptions roam;
   roam.max_triangles = scene->max_triangles;

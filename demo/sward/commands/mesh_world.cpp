@@ -12,6 +12,7 @@
 
 #include "host/flight.h"
 #include "host/scene_renderer.h"
+#include "host/stopwatch.h"
 #include "sward/arguments.h"
 #include "sward/output/figures.h"
 #include "sward/output/files.h"
@@ -28,10 +29,6 @@ struct Row {
   float bound_px = 0;
   WorldStats world;
 };
-
-double ms_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-}
 
 Expected<std::vector<host::FlightFrame>> world_path(const PathOptions& options, const World& world) {
   if (options.flight == "paper")
@@ -67,11 +64,11 @@ Expected<Row> run_frame(const host::FlightFrame& frame, bool morph, bool wait, W
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     poll(world, mesh);
   }
-  row.poll_ms = ms_since(poll_begin);
+  row.poll_ms = host::ms_since(poll_begin);
   const auto update_begin = std::chrono::steady_clock::now();
   auto stats = morph ? mesh.update(frame.view, frame.time_s) : mesh.update(frame.view);
   if (!stats) return tl::unexpected(stats.error());
-  row.update_ms = ms_since(update_begin);
+  row.update_ms = host::ms_since(update_begin);
   row.roam = *stats;
   row.bound_px = mesh.bound_px();
   row.world = world.stats();
@@ -138,9 +135,8 @@ Expected<void> mesh_over_world(const WorldMeshOptions& options) {
   if (!world) return tl::unexpected(world.error());
   auto path = world_path(options.path, **world);
   if (!path) return tl::unexpected(path.error());
-  if (options.at && *options.at >= path->size())
-    return fail("--at " + std::to_string(*options.at) + ": the flight has frames 0 to " +
-                std::to_string(path->size() - 1));
+  if (options.at)
+    if (auto checked = check_frame(*options.at, *path); !checked) return checked;
   RoamOptions roam;
   roam.max_triangles = options.triangles;
   roam.target_px = options.target_px;

@@ -45,7 +45,8 @@ Expected<std::vector<Plant>> plants_by_cpu(const Scene& scene, const host::Scene
   auto frame = host::SceneFrame::create(scene.layers, terrain.bounds, roam);
   if (!frame) return tl::unexpected(frame.error());
   for (size_t i = 0; i <= at; ++i)
-    if (auto updated = frame->mesh().update(path[i].view, path[i].time_s); !updated) return tl::unexpected(updated.error());
+    if (auto updated = frame->mesh().update(path[i].view, path[i].time_s); !updated)
+      return tl::unexpected(updated.error());
   frame->cut_triangles(path[at].view);
   frame->seed_triangles(path[at].view, terrain.colors);
   return frame->plants(path[at].view, terrain.colors, scene.sun_azimuth);
@@ -58,7 +59,8 @@ Expected<std::vector<Plant>> plants_by_gpu(const Scene& scene, const host::Scene
   auto renderer = host::SceneRenderer::create(scene, terrain, gl::ShaderLibrary());
   if (!renderer) return tl::unexpected(renderer.error());
   for (size_t i = 0; i < at; ++i)
-    if (auto updated = renderer->mesh().update(path[i].view, path[i].time_s); !updated) return tl::unexpected(updated.error());
+    if (auto updated = renderer->mesh().update(path[i].view, path[i].time_s); !updated)
+      return tl::unexpected(updated.error());
   target->begin();
   auto drawn = renderer->draw(path[at].view, make_lighting(scene), path[at].time_s, target->framebuffer(), 1, true);
   if (!drawn) return tl::unexpected(drawn.error());
@@ -80,9 +82,7 @@ Expected<void> plants(const PlantsOptions& options) {
   if (!terrain) return tl::unexpected(terrain.error());
   auto path = make_path(options.path, (*terrain)->field);
   if (!path) return tl::unexpected(path.error());
-  if (options.at >= path->size())
-    return fail("--at " + std::to_string(options.at) + ": the flight has frames 0 to " +
-                std::to_string(path->size() - 1));
+  if (auto checked = check_frame(options.at, *path); !checked) return checked;
   auto grown = options.gpu ? plants_by_gpu(*scene, **terrain, *path, options.at)
                            : plants_by_cpu(*scene, **terrain, *path, options.at);
   if (!grown) return tl::unexpected(grown.error());

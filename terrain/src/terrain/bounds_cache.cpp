@@ -13,27 +13,14 @@
 #include <fstream>
 #include <system_error>
 
+#include "checksum.h"
+
 namespace sward {
 
 namespace {
 
 // "SWBND" and the version; raised whenever a value's meaning changes.
 constexpr uint64_t k_magic = 0x444e4257530001u;
-
-uint64_t checksum(const void* data, size_t bytes) {
-  // FNV-1a over 64-bit words, high bits fed back.
-  uint64_t hash = 0xcbf29ce484222325u ^ bytes;
-  const auto* from = static_cast<const unsigned char*>(data);
-  while (bytes > 0) {
-    const size_t taken = bytes < 8 ? bytes : 8;
-    uint64_t word = 0;
-    std::memcpy(&word, from, taken);
-    hash = (hash ^ word ^ (hash >> 32)) * 0x100000001b3u;
-    from += taken;
-    bytes -= taken;
-  }
-  return hash;
-}
 
 using Header = std::array<uint64_t, 5>;
 

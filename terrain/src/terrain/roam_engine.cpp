@@ -129,7 +129,7 @@ float RoamEngine::bound_px() const {
     if (const uint32_t node = queue->highest(state_); node != k_none) worst = std::max(worst, state_[node].key);
   if (!leaf_calendar_.empty()) worst = std::max(worst, leaf_guard_);
   for (const Motion& motion : motions_) {
-    if (!tree_.vertices.moves(motion.vertex) || !tree_.is_split(motion.node)) continue;
+    if (!lasts(motion)) continue;
     for (const uint32_t half : {motion.node, tree_.neighbour[motion.node].base})
       if (half != k_none && is_visible(half)) worst = std::max(worst, read(half).priority);
   }

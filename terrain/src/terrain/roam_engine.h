@@ -95,10 +95,14 @@ class RoamEngine {
   void look_at_all();
   void look(uint32_t node, CullFlags inherited);
   void look_at_due();
+  void look_at_out(uint32_t node);
+  void look_at_leaf(uint32_t node);
   void look_at_outs();
   void look_at_leaves();
   void look_at_diamonds();
   void look_at_lingering();
+  void prefetch_node(uint32_t node) const;
+  void prefetch_corners(uint32_t node) const;
   void prefetch_nodes(size_t place) const;
   void prefetch_bases(size_t place) const;
   void prefetch_due(const std::vector<Calendar::Entry>& due, size_t place) const;
@@ -151,7 +155,7 @@ class RoamEngine {
   // Morph: roam_morph.cpp.
   void set_time(double time_s);
   bool morphs() const { return now_.has_value() && options_.morph_s > 0 && !options_.plain && !from_nothing_; }
-  float fall_seconds() const;
+  double seconds_left() const;
   void rise(uint32_t node, double from_z);
   void fall(uint32_t node);
   void stop_fall(uint32_t node);

@@ -7,8 +7,8 @@
 // clock runs faster. The leaves' and the diamonds' clocks also run while their guard falls or rises towards what was
 // found out; a guard that moves away costs nothing.
 //
-// Units follow the camera, so that a tick is about a frame. New entries are made with units_; the clocks run by
-// safe_units_, the least that any living entry was made with.
+// Units follow the camera, so that a tick is about a fifth of a frame's motion. New entries are made with units_; the
+// clocks run by safe_units_, the least that any living entry was made with.
 #include <algorithm>
 #include <cmath>
 
@@ -139,18 +139,22 @@ void RoamEngine::look_at_all() {
   fresh_ = false;
 }
 
+void RoamEngine::prefetch_node(uint32_t node) const {
+  __builtin_prefetch(&tree_.corner[node]);
+  __builtin_prefetch(&tree_.child[node]);
+  __builtin_prefetch(&state_[node]);
+}
+
+// The node's own data must be near by now.
+void RoamEngine::prefetch_corners(uint32_t node) const {
+  const Corners& c = tree_.corner[node];
+  for (const uint32_t vertex : {c.apex, c.left, c.right}) __builtin_prefetch(&seen_[vertex]);
+}
+
 void RoamEngine::prefetch_nodes(size_t place) const {
   constexpr size_t k_nodes_ahead = 24, k_vertices_ahead = 12;
-  if (place + k_nodes_ahead < visits_.size()) {
-    const uint32_t node = visits_[place + k_nodes_ahead].node;
-    __builtin_prefetch(&tree_.corner[node]);
-    __builtin_prefetch(&tree_.child[node]);
-    __builtin_prefetch(&state_[node]);
-  }
-  if (place + k_vertices_ahead < visits_.size()) {
-    const Corners& c = tree_.corner[visits_[place + k_vertices_ahead].node];
-    for (const uint32_t vertex : {c.apex, c.left, c.right}) __builtin_prefetch(&seen_[vertex]);
-  }
+  if (place + k_nodes_ahead < visits_.size()) prefetch_node(visits_[place + k_nodes_ahead].node);
+  if (place + k_vertices_ahead < visits_.size()) prefetch_corners(visits_[place + k_vertices_ahead].node);
 }
 
 void RoamEngine::look(uint32_t node, CullFlags inherited) {
@@ -211,22 +215,12 @@ void RoamEngine::look_at_due() {
   look_at_diamonds();
 }
 
+// Entries may name nodes that a mesh which started over does not have.
 void RoamEngine::prefetch_due(const std::vector<Calendar::Entry>& due, size_t place) const {
   constexpr size_t k_nodes_ahead = 20, k_vertices_ahead = 10;
-  if (place + k_nodes_ahead < due.size()) {
-    const uint32_t node = due[place + k_nodes_ahead].node;
-    if (node < tree_.size()) {
-      __builtin_prefetch(&tree_.corner[node]);
-      __builtin_prefetch(&tree_.child[node]);
-      __builtin_prefetch(&state_[node]);
-    }
-  }
-  if (place + k_vertices_ahead < due.size()) {
-    const uint32_t node = due[place + k_vertices_ahead].node;
-    if (node >= tree_.size()) return;
-    const Corners& c = tree_.corner[node];
-    for (const uint32_t vertex : {c.apex, c.left, c.right}) __builtin_prefetch(&seen_[vertex]);
-  }
+  const auto ahead = [&](size_t by) { return place + by < due.size() ? due[place + by].node : k_none; };
+  if (const uint32_t node = ahead(k_nodes_ahead); node < tree_.size()) prefetch_node(node);
+  if (const uint32_t node = ahead(k_vertices_ahead); node < tree_.size()) prefetch_corners(node);
 }
 
 // The other halves of diamonds.
@@ -249,19 +243,36 @@ void RoamEngine::prefetch_bases(size_t place) const {
     __builtin_prefetch(&seen_[tree_.corner[base].apex]);
 }
 
+// The topmost node of what is out.
+void RoamEngine::look_at_out(uint32_t node) {
+  ++stats_.looked_at;
+  const Reading reading = read(node);
+  if (reading.out()) {
+    watch_out(node, reading);
+  } else {
+    come_in(node, reading);
+  }
+}
+
+// A visible node that acts as a leaf.
+void RoamEngine::look_at_leaf(uint32_t node) {
+  ++stats_.looked_at;
+  const Reading reading = read(node);
+  state_[node].due = 0;
+  if (reading.out() && tree_.is_leaf(node)) {
+    go_out(node, reading);
+  } else {
+    place(node, reading);
+  }
+}
+
 void RoamEngine::look_at_outs() {
   out_calendar_.take_due(due_outs_);
   for (size_t i = 0; i < due_outs_.size(); ++i) {
     prefetch_due(due_outs_, i);
     const auto [node, tick] = due_outs_[i];
     if (node >= state_.size() || state_[node].due != tick || is_visible(node) || !tree_.is_alive(node)) continue;
-    ++stats_.looked_at;
-    const Reading reading = read(node);
-    if (reading.out()) {
-      watch_out(node, reading);
-    } else {
-      come_in(node, reading);
-    }
+    look_at_out(node);
   }
   due_outs_.clear();
 }
@@ -272,15 +283,7 @@ void RoamEngine::look_at_leaves() {
     prefetch_due(due_leaves_, i);
     const auto [node, tick] = due_leaves_[i];
     if (node >= state_.size() || state_[node].due != tick || !is_visible(node) || !tree_.is_alive(node)) continue;
-    if (!acts_as_leaf(node)) continue;
-    ++stats_.looked_at;
-    const Reading reading = read(node);
-    state_[node].due = 0;
-    if (reading.out() && tree_.is_leaf(node)) {
-      go_out(node, reading);
-    } else {
-      place(node, reading);
-    }
+    if (acts_as_leaf(node)) look_at_leaf(node);
   }
   due_leaves_.clear();
 }

@@ -28,24 +28,23 @@ constexpr double k_least_seconds = 0.02;
 
 }  // namespace
 
-// Falls that follow one another, finer diamonds before coarser ones, must end in time: each takes half of what is left.
-float RoamEngine::fall_seconds() const {
-  const double left = still_since_ + k_rest_seconds - tree_.vertices.now;
-  return float(std::min(double(options_.morph_s), 0.5 * left));
+// What is left of the time in which motions have to end, were the view to rest from now on.
+double RoamEngine::seconds_left() const {
+  return still_since_ + k_rest_seconds - tree_.vertices.now;
 }
 
 // The diamond has just been split; its centre was drawn at `from_z`.
 void RoamEngine::rise(uint32_t node, double from_z) {
   const uint32_t vertex = tree_.corner[tree_.child[node]].apex;
-  const double left = still_since_ + k_rest_seconds - tree_.vertices.now;
-  const auto seconds = float(std::min(double(options_.morph_s), left));
+  const auto seconds = float(std::min(double(options_.morph_s), seconds_left()));
   if (double(seconds) < k_least_seconds) return refresh_diamond(node);
   tree_.vertices.begin_motion(vertex, from_z, tree_.vertices.world[vertex].z, seconds);
   motions_.push_back({node, vertex});
 }
 
+// Falls that follow one another, finer diamonds before coarser ones, must end in time: each takes half of what is left.
 void RoamEngine::fall(uint32_t node) {
-  const float seconds = fall_seconds();
+  const auto seconds = float(std::min(double(options_.morph_s), 0.5 * seconds_left()));
   if (!morphs() || double(seconds) < k_least_seconds) return merge_now(node);
   VertexPool& v = tree_.vertices;
   const Corners& c = tree_.corner[node];
@@ -79,8 +78,7 @@ void RoamEngine::stop_fall(uint32_t node) {
     }
   }
   // Its entry in motions_ stays.
-  const double left = still_since_ + k_rest_seconds - v.now;
-  const double seconds = std::max(std::min(double(options_.morph_s), left), k_least_seconds);
+  const double seconds = std::max(std::min(double(options_.morph_s), seconds_left()), k_least_seconds);
   v.begin_motion(vertex, v.drawn_z(vertex), v.world[vertex].z, float(seconds));
 }
 
@@ -125,8 +123,7 @@ void RoamEngine::finish_motions() {
 void RoamEngine::finish_falls_now() {
   for (size_t i = motions_.size(); i-- > 0 && visible_count() > options_.max_triangles;) {
     const Motion motion = motions_[i];
-    if (!tree_.vertices.moves(motion.vertex) || !(state_[motion.node].cull & k_falling)) continue;
-    if (!tree_.is_split(motion.node) || tree_.corner[tree_.child[motion.node]].apex != motion.vertex) continue;
+    if (!lasts(motion) || !(state_[motion.node].cull & k_falling)) continue;
     falling_surplus_ -= merge_gain(motion.node);
     merge_now(motion.node);
     ++stats_.merges;
@@ -140,8 +137,7 @@ void RoamEngine::finish_motions_now() {
   size_t kept = 0;
   for (size_t i = 0; i < motions_.size(); ++i) {
     const Motion motion = motions_[i];
-    if (!v.alive[motion.vertex] || !v.moves(motion.vertex) || !tree_.is_split(motion.node)) continue;
-    if (tree_.corner[tree_.child[motion.node]].apex != motion.vertex) continue;
+    if (!lasts(motion)) continue;
     if (state_[motion.node].cull & k_falling) {
       motions_[kept++] = motion;
       continue;

@@ -10,24 +10,20 @@ namespace sward::roam {
 
 namespace {
 
+LatticeBox box_of(const TriangleCorners& c) {
+  return {glm::min(c.apex, glm::min(c.left, c.right)), glm::max(c.apex, glm::max(c.left, c.right))};
+}
+
+bool meet(const LatticeBox& a, const LatticeBox& b) {
+  return a.first.x <= b.last.x && a.first.y <= b.last.y && a.last.x >= b.first.x && a.last.y >= b.first.y;
+}
+
 // A diamond's bound holds what lies below it, which reaches no farther beyond it than its own larger side. That of the
 // relief at the data's level also depends on slopes two samples around.
 bool may_depend(const TriangleCorners& c, const LatticeBox& box, int step) {
-  const LatticePoint low = glm::min(c.apex, glm::min(c.left, c.right)),
-                     high = glm::max(c.apex, glm::max(c.left, c.right));
-  const LatticePoint reach(std::max(high.x - low.x, high.y - low.y) + 3 * step);
-  return low.x - reach.x <= box.last.x && low.y - reach.y <= box.last.y && high.x + reach.x >= box.first.x &&
-         high.y + reach.y >= box.first.y;
-}
-
-bool meets(const TriangleCorners& c, const LatticeBox& box) {
-  const LatticePoint low = glm::min(c.apex, glm::min(c.left, c.right)),
-                     high = glm::max(c.apex, glm::max(c.left, c.right));
-  return low.x <= box.last.x && low.y <= box.last.y && high.x >= box.first.x && high.y >= box.first.y;
-}
-
-bool holds(const LatticeBox& box, LatticePoint p) {
-  return p.x >= box.first.x && p.y >= box.first.y && p.x <= box.last.x && p.y <= box.last.y;
+  const LatticeBox own = box_of(c);
+  const int reach = std::max(own.last.x - own.first.x, own.last.y - own.first.y) + 3 * step;
+  return meet({own.first - reach, own.last + reach}, box);
 }
 
 }  // namespace
@@ -53,7 +49,7 @@ void RoamEngine::read_surface_again() {
 }
 
 void RoamEngine::collapse_forbidden(uint32_t node, const LatticeBox& box) {
-  if (tree_.is_leaf(node) || !meets(tree_.corners(node), box)) return;
+  if (tree_.is_leaf(node) || !meet(box_of(tree_.corners(node)), box)) return;
   if (!tree_.surface().can_split(centre_of(tree_.corners(node)), tree_.id[node].level())) return collapse(node);
   for (uint32_t turn = 0; turn < 2 && tree_.is_split(node); ++turn) collapse_forbidden(tree_.child[node] + turn, box);
 }
@@ -64,7 +60,7 @@ void RoamEngine::reread(uint32_t node, const LatticeBox& box) {
   const Corners& c = tree_.corner[node];
   for (const uint32_t vertex : {c.apex, c.left, c.right}) {
     const LatticePoint p = tree_.vertices.lattice[vertex];
-    if (!holds(box, p) || tree_.surface().height(p) == tree_.vertices.world[vertex].z) continue;
+    if (!meet({p, p}, box) || tree_.surface().height(p) == tree_.vertices.world[vertex].z) continue;
     tree_.vertices.reread(tree_.surface(), vertex);
     take_vertex(vertex);
   }
@@ -77,24 +73,13 @@ void RoamEngine::reread(uint32_t node, const LatticeBox& box) {
 
 void RoamEngine::look_again(uint32_t node) {
   if (options_.plain) return look(node, inherited_flags(node));
-  NodeState& s = state_[node];
   const uint32_t parent = tree_.parent[node];
   const bool below_out = parent != k_none && !is_visible(parent);
   if (below_out) return;
-  const Reading reading = read(node);
   if (!is_visible(node)) {
-    if (reading.out()) {
-      watch_out(node, reading);
-    } else {
-      come_in(node, reading);
-    }
+    look_at_out(node);
   } else if (acts_as_leaf(node)) {
-    if (reading.out() && tree_.is_leaf(node)) {
-      s.due = 0;
-      go_out(node, reading);
-    } else {
-      place(node, reading);
-    }
+    look_at_leaf(node);
   }
   if (tree_.is_split(node)) refresh_diamond(node);
 }
