@@ -106,14 +106,15 @@ inline void Collector::run() {
   out_.surface_z = std::round(view_.eye.z);
   for (uint32_t root = 0; root < tree_.root_count(); ++root) {
     const Corners& c = tree_.corner[root];
-    visit(root, {tree_.id[root], corner(c.apex), corner(c.left), corner(c.right), tree_.cover[root]}, k_all_planes);
+    visit(root, {tree_.nodes[root].id, corner(c.apex), corner(c.left), corner(c.right), tree_.nodes[root].cover},
+          k_all_planes);
   }
 }
 
 inline Corner Collector::corner(uint32_t vertex) const {
   Corner c;
   c.lattice = tree_.vertices.lattice[vertex];
-  c.world = tree_.vertices.world[vertex];
+  c.world = tree_.vertices.points[vertex].world;
   for (int i = 0; i < 6; ++i) c.plane[i] = glm::dot(planes_[i].n, c.world - view_.eye) + planes_[i].d;
   return c;
 }
@@ -184,8 +185,8 @@ inline void Collector::visit(uint32_t node, const Triangle& t, unsigned active) 
   } else {
     const uint32_t child = tree_.child[node];
     const Corner m = corner(tree_.corner[child].apex);
-    visit(child, {tree_.id[child], m, t.apex, t.left, tree_.cover[child]}, active);
-    visit(child + 1, {tree_.id[child + 1], m, t.right, t.apex, tree_.cover[child + 1]}, active);
+    visit(child, {tree_.nodes[child].id, m, t.apex, t.left, tree_.nodes[child].cover}, active);
+    visit(child + 1, {tree_.nodes[child + 1].id, m, t.right, t.apex, tree_.nodes[child + 1].cover}, active);
   }
 }
 
@@ -222,7 +223,7 @@ inline void Collector::emit(const Triangle& t, uint32_t split_node) {
 inline uint32_t Collector::refine(uint32_t node) {
   const uint32_t index = uint32_t(out_.surface.size());
   const uint32_t first = tree_.child[node];
-  const double z = tree_.vertices.world[tree_.corner[first].apex].z;
+  const double z = tree_.vertices.points[tree_.corner[first].apex].world.z;
   out_.surface.push_back({float(z - out_.surface_z), {0, 0}, 0});
   for (uint32_t turn = 0; turn < 2; ++turn) {
     if (!tree_.is_split(first + turn)) continue;

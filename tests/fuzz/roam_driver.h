@@ -104,7 +104,7 @@ inline std::string step(Input& in, sward::roam::RoamEngine& engine, double& cloc
     case 3: {
       const int deepest = std::min(tree.lattice().max_level + 2, sward::k_max_level - 1);
       const uint32_t leaf =
-          find_node(tree, in.word(), [&](uint32_t n) { return tree.is_leaf(n) && tree.id[n].level() < deepest; });
+          find_node(tree, in.word(), [&](uint32_t n) { return tree.is_leaf(n) && tree.nodes[n].id.level() < deepest; });
       if (leaf == sward::roam::k_none) return "";
       const sward::roam::Chain chain = tree.forced_chain(leaf);
       const int cost = engine.view() ? engine.split_cost(chain) : 0;

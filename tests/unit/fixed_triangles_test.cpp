@@ -170,13 +170,13 @@ TEST(TriangleId, OfTheMeshLeadsToTheMeshsCorners) {
     std::set<uint64_t> ids;
     for (uint32_t node = 0; node < tree.size(); ++node) {
       if (!tree.is_alive(node)) continue;
-      const sward::TriangleCorners c = sward::corners_of(tree.id[node]);
+      const sward::TriangleCorners c = sward::corners_of(tree.nodes[node].id);
       const sward::roam::Corners slots = tree.corner[node];
-      ASSERT_EQ(tree.vertices.world[slots.apex],
+      ASSERT_EQ(tree.vertices.points[slots.apex].world,
                 glm::dvec3(terrain.field->world_xy(c.apex), terrain.field->height(c.apex)));
       ASSERT_EQ(tree.vertices.lattice[slots.left], c.left);
       ASSERT_EQ(tree.vertices.lattice[slots.right], c.right);
-      ASSERT_TRUE(ids.insert(tree.id[node].bits).second);
+      ASSERT_TRUE(ids.insert(tree.nodes[node].id.bits).second);
     }
   }
 }

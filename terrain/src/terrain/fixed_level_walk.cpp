@@ -44,7 +44,8 @@ void FixedLevelWalk::run(int chunk_level, std::vector<ChunkVisit>& visits) const
   for (uint32_t root = 0; root < tree_.root_count(); ++root) {
     const Corners& c = tree_.corner[root];
     visit({chunk_level, root, visits}, root,
-          {tree_.id[root], corner(c.apex), corner(c.left), corner(c.right), tree_.cover[root]}, k_all_halfspaces);
+          {tree_.nodes[root].id, corner(c.apex), corner(c.left), corner(c.right), tree_.nodes[root].cover},
+          k_all_halfspaces);
   }
 }
 
@@ -124,7 +125,7 @@ void FixedLevelWalk::visit(const Run& run, uint32_t node, const DrawnTriangle& t
     const DrawnCorner m = corner(tree_.corner[first].apex);
     for (int turn = 0; turn < 2; ++turn) {
       DrawnTriangle below = child(t, turn, m);
-      below.cover = tree_.cover[first + uint32_t(turn)];
+      below.cover = tree_.nodes[first + uint32_t(turn)].cover;
       visit(run, first + uint32_t(turn), below, active);
     }
   }

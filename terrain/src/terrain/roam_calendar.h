@@ -60,7 +60,7 @@ class Calendar {
   }
   bool empty() const { return entries_ == 0; }
   /// Ticks are about to run out of numbers: clear() begins anew.
-  bool old() const { return now_ > 4e9; }
+  bool old() const { return now_ > 2e9; }
   void clear() {
     heads_.fill(k_nil);
     pool_.clear();

@@ -37,6 +37,8 @@ class DrawList {
       nodes_.push_back(node);
       indices_.resize(indices_.size() + 3);
       change_.resize(std::max(change_.size(), nodes_.size()));
+      changed_.reserve(change_.capacity());
+      free_.reserve(change_.capacity());
     } else {
       slot = free_.back();
       free_.pop_back();

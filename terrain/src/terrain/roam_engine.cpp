@@ -34,12 +34,13 @@ Expected<void> check_options(const RoamOptions& options, uint32_t drawable_roots
 RoamEngine::RoamEngine(const Surface& surface, const RoamOptions& options) : tree_(surface), options_(options) {
   tree_.vertices.rebase(tree_.lattice().origin);
   grow_arrays();
-  for (uint32_t vertex = 0; vertex < tree_.vertices.world.size(); ++vertex) take_vertex(vertex);
+  for (uint32_t vertex = 0; vertex < tree_.vertices.points.size(); ++vertex) take_vertex(vertex);
+  for (uint32_t root = 0; root < tree_.root_count(); ++root) take_node(root);
 }
 
 Expected<void> RoamEngine::set_options(const RoamOptions& options) {
   uint32_t drawable = 0;
-  for (uint32_t root = 0; root < tree_.root_count(); ++root) drawable += tree_.cover[root] != Cover::padding;
+  for (uint32_t root = 0; root < tree_.root_count(); ++root) drawable += tree_.nodes[root].cover != Cover::padding;
   if (auto checked = check_options(options, drawable); !checked) return checked;
   // The two ways of keeping the queues do not mix.
   if (options.plain != options_.plain && view_) {
@@ -70,11 +71,12 @@ Expected<RoamStats> RoamEngine::update(const View& view, std::optional<double> t
     still_since_ = tree_.vertices.now;
     follow_eye(view.eye);
     const std::optional<View> last = view_;
+    const Projection before = projection_;
     view_ = view;
     projection_ = Projection(view);
     ++view_number_;
     settled_ = false;
-    look_anew(last);
+    look_anew(last, before);
   } else if (new_to_rest_) {
     look_at_lingering();
     settled_ = false;

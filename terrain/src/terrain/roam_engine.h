@@ -65,35 +65,27 @@ class RoamEngine {
   struct Ghost;
 
   // Reading nodes.
-  const Lanes& lanes(uint32_t vertex) const {
+  Forms forms(uint32_t vertex) const {
     SeenVertex& seen = seen_[vertex];
-    if (seen.view != view_number_) {
-      seen.lanes = projection_.project(seen.world);
-      seen.view = view_number_;
-    }
-    return seen.lanes;
+    if (seen.view == view_number_) return Forms::loaded(seen.form);
+    const Forms forms = projection_.project(seen.world);
+    forms.store(seen.form);
+    seen.view = view_number_;
+    return forms;
   }
-  Reading read(uint32_t node) const {
-    const Corners& c = tree_.corner[node];
-    return projection_.read(lanes(c.apex), lanes(c.left), lanes(c.right), c.bound);
-  }
-  /// After read(): the corners as it saw them.
-  Seen seen(uint32_t node) const {
-    const SeenVertex &a = seen_[tree_.corner[node].apex], &b = seen_[tree_.corner[node].left],
-                     &c = seen_[tree_.corner[node].right];
-    return {{&a.lanes, &b.lanes, &c.lanes}, {&a.world, &b.world, &c.world}};
-  }
+  Reading read(uint32_t node) const { return projection_.read(wedgie_[node]); }
   Assessment assess(uint32_t node, CullFlags inherited) const;
   CullFlags inherited_flags(uint32_t node) const;
 
   // Following the view: roam_follow.cpp.
   void follow_eye(glm::dvec3 eye);
-  void look_anew(const std::optional<View>& last);
-  bool advance_clocks(const View& from, const View& to);
+  void look_anew(const std::optional<View>& last, const Projection& before);
+  bool advance_clocks(const View& from, const Projection& before);
   void tune_units(float metres, float radians);
   void start_over();
   void look_at_all();
   void look(uint32_t node, CullFlags inherited);
+  void look_plainly(uint32_t node, CullFlags inherited);
   void look_at_due();
   void look_at_out(uint32_t node);
   void look_at_leaf(uint32_t node);
@@ -116,7 +108,8 @@ class RoamEngine {
   }
   bool in_falling(uint32_t leaf) const { return state_[leaf].held; }
   void show(uint32_t leaf);
-  float until_side_changes(uint32_t node, uint32_t entry, const Reading& reading, float ticks);
+  float until_side_changes(uint32_t node, const Reading& reading, float ticks);
+  void note_lingering(uint32_t node);
   void place(uint32_t node, const Reading& reading);
   void unplace(uint32_t node);
   void mark_out(uint32_t node);
@@ -125,10 +118,14 @@ class RoamEngine {
   void come_in(uint32_t node, const Reading& reading);
   void refresh_diamond(uint32_t node);
   void place_diamond(uint32_t diamond);
+  float plain_key(uint32_t diamond) const;
+  std::optional<float> defer_diamond(uint32_t diamond);
+  void unqueue_diamond(uint32_t diamond);
   void forget_diamond(uint32_t node);
   void mark_halves(uint32_t node, bool queued);
   void grow_arrays();
   void take_vertex(uint32_t vertex);
+  void take_node(uint32_t node);
 
   // Adapting: roam_refine.cpp.
   enum class Room { enough, full, later };
@@ -150,7 +147,7 @@ class RoamEngine {
   int64_t decided_count() const { return int64_t(visible_count()) - falling_surplus_; }
   Ghost ghost(uint32_t node) const;
   CullFlags sees(const Ghost& ghost, float bound, CullFlags inherited) const;
-  Ghost ghost_child(const Ghost& of, int turn, const Lanes& middle) const;
+  Ghost ghost_child(const Ghost& of, int turn, glm::dvec3 middle) const;
 
   // Morph: roam_morph.cpp.
   void set_time(double time_s);
@@ -163,7 +160,9 @@ class RoamEngine {
   void finish_falls_now();
   void finish_motions_now();
   void count_falling_surplus();
-  bool centre_moves(uint32_t node) const { return tree_.vertices.moves(tree_.corner[tree_.child[node]].apex); }
+  bool centre_moves(uint32_t node) const {
+    return !options_.plain && tree_.vertices.moves(tree_.corner[tree_.child[node]].apex);
+  }
 
   // The surface: roam_surface.cpp.
   void read_surface_again();
@@ -184,8 +183,12 @@ class RoamEngine {
   RoamStats stats_;
 
   NodeStates state_;
+  std::vector<Wedgie> wedgie_;                  // by node
   std::vector<uint32_t> lingering_, lingered_;  // visible leaves that may have gone out of sight, the older ones second
-  uint32_t lingering_age_ = 0;
+  uint32_t lingering_list_ = 1;                 // the number of the first
+  double lingering_ticks_ = 0;                  // since it was begun
+  // Least and most ticks after which a visible leaf that may have left the view is looked at.
+  static constexpr float k_least_patience = 10, k_most_patience = 640;
   bool new_to_rest_ = false;   // the view of the last update was new
   BucketQueue split_queue_;    // visible leaves near the balance
   BucketQueue merge_queue_;    // mergeable diamonds near the balance, by their lower node, and all that are out
@@ -231,7 +234,7 @@ class RoamEngine {
   // What a view makes of a vertex, computed when first needed, beside what it is computed from: one cache line.
   struct alignas(64) SeenVertex {
     glm::dvec3 world{0};
-    Lanes lanes{};
+    float form[Forms::k_forms] = {};
     uint32_t view = 0;
   };
   mutable std::vector<SeenVertex> seen_;  // by vertex

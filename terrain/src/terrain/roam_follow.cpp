@@ -42,19 +42,20 @@ void RoamEngine::follow_eye(glm::dvec3 eye) {
   if (!view_ || far) v.rebase(glm::round(eye));
 }
 
-void RoamEngine::look_anew(const std::optional<View>& last) {
+void RoamEngine::look_anew(const std::optional<View>& last, const Projection& before) {
   follow_balance();
-  if (!options_.plain && !fresh_ && last && advance_clocks(*last, *view_)) return look_at_due();
+  if (!options_.plain && !fresh_ && last && advance_clocks(*last, before)) return look_at_due();
   const bool jumped = !options_.plain && !fresh_;
-  const double before = visible_count();
+  const double seen = visible_count();
   look_at_all();
-  if (!jumped || double(visible_count()) >= k_worth_keeping * before) return;
+  if (!jumped || double(visible_count()) >= k_worth_keeping * seen) return;
   start_over();
   look_at_all();
 }
 
 // False when the views do not compare and everything has to be looked at.
-bool RoamEngine::advance_clocks(const View& from, const View& to) {
+bool RoamEngine::advance_clocks(const View& from, const Projection& before) {
+  const View& to = *view_;
   if (from.clip_from_eye != to.clip_from_eye || from.viewport != to.viewport) return false;
   const double metres = glm::distance(from.eye, to.eye);
   const double radians = angle_between(from.eye_from_world, to.eye_from_world);
@@ -65,6 +66,8 @@ bool RoamEngine::advance_clocks(const View& from, const View& to) {
   out_calendar_.advance(ticks);
   leaf_calendar_.advance(ticks);
   diamond_calendar_.advance(ticks);
+  projection_.expect(before, ticks);
+  lingering_ticks_ += ticks;
   safe_ticks_ -= ticks;
   if (safe_ticks_ <= 0) {
     safe_ticks_ = Calendar::k_span;
@@ -104,8 +107,10 @@ void RoamEngine::start_over() {
   motions_.clear();
   falling_surplus_ = 0;
   state_.clear();
+  wedgie_.clear();
   grow_arrays();
-  for (uint32_t vertex = 0; vertex < tree_.vertices.world.size(); ++vertex) take_vertex(vertex);
+  for (uint32_t vertex = 0; vertex < tree_.vertices.points.size(); ++vertex) take_vertex(vertex);
+  for (uint32_t root = 0; root < tree_.root_count(); ++root) take_node(root);
   fresh_ = true;
 }
 
@@ -140,9 +145,9 @@ void RoamEngine::look_at_all() {
 }
 
 void RoamEngine::prefetch_node(uint32_t node) const {
-  __builtin_prefetch(&tree_.corner[node]);
-  __builtin_prefetch(&tree_.child[node]);
   __builtin_prefetch(&state_[node]);
+  __builtin_prefetch(&tree_.child[node]);
+  __builtin_prefetch(options_.plain ? static_cast<const void*>(&tree_.corner[node]) : &wedgie_[node]);
 }
 
 // The node's own data must be near by now.
@@ -154,34 +159,43 @@ void RoamEngine::prefetch_corners(uint32_t node) const {
 void RoamEngine::prefetch_nodes(size_t place) const {
   constexpr size_t k_nodes_ahead = 24, k_vertices_ahead = 12;
   if (place + k_nodes_ahead < visits_.size()) prefetch_node(visits_[place + k_nodes_ahead].node);
-  if (place + k_vertices_ahead < visits_.size()) prefetch_corners(visits_[place + k_vertices_ahead].node);
+  if (options_.plain && place + k_vertices_ahead < visits_.size())
+    prefetch_corners(visits_[place + k_vertices_ahead].node);
 }
 
 void RoamEngine::look(uint32_t node, CullFlags inherited) {
+  if (options_.plain) return look_plainly(node, inherited);
   ++stats_.looked_at;
-  Reading reading;
-  CullFlags cull = k_out;
-  if (options_.plain) {
-    const Assessment now = assess(node, inherited);
-    cull = now.cull;
-    reading.priority = now.priority;
-    reading.bound = tree_.corner[node].bound;
-  } else if (!(inherited & k_out)) {
-    reading = read(node);
-    if (!reading.out()) cull = 0;
-  }
-  NodeState& s = state_[node];
-  if (cull & k_out) {
+  if (inherited & k_out) {
     mark_out(node);
-    if (!(inherited & k_out)) watch_out(node, reading);
+  } else if (const Reading reading = read(node); reading.out()) {
+    mark_out(node);
+    watch_out(node, reading);
   } else {
-    s.cull = CullFlags((s.cull & k_falling) | cull);
-    s.priority = reading.priority;
-    s.due = 0;
+    NodeState& s = state_[node];
+    s.cull = CullFlags(s.cull & k_falling);
+    wedgie_[node].due = 0;
     if (tree_.is_leaf(node)) show(node);
     if (acts_as_leaf(node)) place(node, reading);
   }
   // The other half may still have the last view's flags; its own visit then places the diamond again.
+  if (tree_.is_split(node)) refresh_diamond(node);
+}
+
+void RoamEngine::look_plainly(uint32_t node, CullFlags inherited) {
+  ++stats_.looked_at;
+  const Assessment now = assess(node, inherited);
+  NodeState& s = state_[node];
+  if (now.cull & k_out) {
+    mark_out(node);
+  } else {
+    s.cull = now.cull;
+    s.priority = now.priority;
+    if (tree_.is_leaf(node)) {
+      show(node);
+      place(node, plain_reading(node));
+    }
+  }
   if (tree_.is_split(node)) refresh_diamond(node);
 }
 
@@ -198,9 +212,10 @@ void gather(std::vector<uint32_t>& hot, uint32_t mark, std::vector<Calendar::Ent
 
 // What came in first, because it may bring leaves; leaves before diamonds, because they may go out.
 void RoamEngine::look_at_due() {
-  // Older entries have been looked at since.
-  constexpr uint32_t k_updates_to_linger = 32;
-  if (++lingering_age_ % k_updates_to_linger == 0) {
+  if (lingering_ticks_ > double(k_most_patience)) {
+    // Older entries have been looked at since.
+    lingering_ticks_ = 0;
+    ++lingering_list_;
     lingered_.swap(lingering_);
     lingering_.clear();
   }
@@ -217,15 +232,15 @@ void RoamEngine::look_at_due() {
 
 // Entries may name nodes that a mesh which started over does not have.
 void RoamEngine::prefetch_due(const std::vector<Calendar::Entry>& due, size_t place) const {
-  constexpr size_t k_nodes_ahead = 20, k_vertices_ahead = 10;
-  const auto ahead = [&](size_t by) { return place + by < due.size() ? due[place + by].node : k_none; };
-  if (const uint32_t node = ahead(k_nodes_ahead); node < tree_.size()) prefetch_node(node);
-  if (const uint32_t node = ahead(k_vertices_ahead); node < tree_.size()) prefetch_corners(node);
+  constexpr size_t k_ahead = 16;
+  if (place + k_ahead >= due.size()) return;
+  const uint32_t node = due[place + k_ahead].node;
+  if (node < wedgie_.size()) __builtin_prefetch(&wedgie_[node]);
 }
 
 // The other halves of diamonds.
 void RoamEngine::prefetch_bases(size_t place) const {
-  constexpr size_t k_far_ahead = 24, k_ahead = 14, k_vertex_ahead = 7;
+  constexpr size_t k_far_ahead = 24, k_ahead = 12;
   const auto base_at = [&](size_t ahead) {
     if (place + ahead >= due_diamonds_.size()) return k_none;
     const uint32_t node = due_diamonds_[place + ahead].node;
@@ -233,14 +248,15 @@ void RoamEngine::prefetch_bases(size_t place) const {
   };
   if (place + k_far_ahead < due_diamonds_.size()) {
     const uint32_t node = due_diamonds_[place + k_far_ahead].node;
-    if (node < tree_.size()) __builtin_prefetch(&tree_.neighbour[node]);
+    if (node < tree_.size()) {
+      __builtin_prefetch(&tree_.neighbour[node]);
+      __builtin_prefetch(&state_[node]);
+    }
   }
   if (const uint32_t base = base_at(k_ahead); base != k_none) {
-    __builtin_prefetch(&tree_.corner[base]);
+    __builtin_prefetch(&wedgie_[base]);
     __builtin_prefetch(&state_[base]);
   }
-  if (const uint32_t base = base_at(k_vertex_ahead); base != k_none)
-    __builtin_prefetch(&seen_[tree_.corner[base].apex]);
 }
 
 // The topmost node of what is out.
@@ -258,7 +274,6 @@ void RoamEngine::look_at_out(uint32_t node) {
 void RoamEngine::look_at_leaf(uint32_t node) {
   ++stats_.looked_at;
   const Reading reading = read(node);
-  state_[node].due = 0;
   if (reading.out() && tree_.is_leaf(node)) {
     go_out(node, reading);
   } else {
@@ -271,8 +286,7 @@ void RoamEngine::look_at_outs() {
   for (size_t i = 0; i < due_outs_.size(); ++i) {
     prefetch_due(due_outs_, i);
     const auto [node, tick] = due_outs_[i];
-    if (node >= state_.size() || state_[node].due != tick || is_visible(node) || !tree_.is_alive(node)) continue;
-    look_at_out(node);
+    if (node < wedgie_.size() && wedgie_[node].due == (tick | k_watch)) look_at_out(node);
   }
   due_outs_.clear();
 }
@@ -282,8 +296,7 @@ void RoamEngine::look_at_leaves() {
   for (size_t i = 0; i < due_leaves_.size(); ++i) {
     prefetch_due(due_leaves_, i);
     const auto [node, tick] = due_leaves_[i];
-    if (node >= state_.size() || state_[node].due != tick || !is_visible(node) || !tree_.is_alive(node)) continue;
-    if (acts_as_leaf(node)) look_at_leaf(node);
+    if (node < wedgie_.size() && wedgie_[node].due == tick) look_at_leaf(node);
   }
   due_leaves_.clear();
 }
@@ -294,7 +307,7 @@ void RoamEngine::look_at_diamonds() {
     prefetch_due(due_diamonds_, i);
     prefetch_bases(i);
     const auto [node, tick] = due_diamonds_[i];
-    if (node >= state_.size() || state_[node].diamond_due != tick || !tree_.is_alive(node)) continue;
+    if (node >= wedgie_.size() || wedgie_[node].diamond_due != tick) continue;
     stats_.looked_at += 2;
     // An entry is void as soon as the diamond cannot be merged.
     place_diamond(node);
@@ -306,8 +319,7 @@ void RoamEngine::look_at_diamonds() {
 void RoamEngine::look_at_lingering() {
   lingered_.insert(lingered_.end(), lingering_.begin(), lingering_.end());
   lingering_.clear();
-  std::sort(lingered_.begin(), lingered_.end());
-  lingered_.erase(std::unique(lingered_.begin(), lingered_.end()), lingered_.end());
+  ++lingering_list_;
   for (const uint32_t node : lingered_) {
     if (node >= tree_.size() || !tree_.is_alive(node)) continue;
     if (tree_.is_split(node)) {
@@ -315,7 +327,7 @@ void RoamEngine::look_at_lingering() {
     } else if (is_visible(node) && !in_falling(node)) {
       const Reading reading = read(node);
       if (!reading.out()) {
-        lingering_.push_back(node);
+        note_lingering(node);
       } else {
         go_out(node, reading);
       }

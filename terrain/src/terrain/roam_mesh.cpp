@@ -118,7 +118,7 @@ std::vector<uint32_t> RoamMesh::all_indices() const {
   std::vector<uint32_t> indices;
   indices.reserve(3 * size_t(tree.leaf_count()));
   for (uint32_t node = 0; node < tree.size(); ++node) {
-    if (!tree.is_leaf(node) || tree.cover[node] == roam::Cover::padding) continue;
+    if (!tree.is_leaf(node) || tree.nodes[node].cover == roam::Cover::padding) continue;
     const roam::Corners& c = tree.corner[node];
     indices.insert(indices.end(), {c.apex, c.left, c.right});
   }
@@ -127,7 +127,7 @@ std::vector<uint32_t> RoamMesh::all_indices() const {
 
 glm::dvec3 RoamMesh::vertex_world(uint32_t slot) const {
   const roam::VertexPool& vertices = impl_->engine.tree().vertices;
-  SWARD_ASSERT(slot < vertices.world.size(), "no such vertex slot");
+  SWARD_ASSERT(slot < vertices.points.size(), "no such vertex slot");
   return vertices.drawn(slot);
 }
 

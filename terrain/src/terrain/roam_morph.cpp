@@ -38,7 +38,7 @@ void RoamEngine::rise(uint32_t node, double from_z) {
   const uint32_t vertex = tree_.corner[tree_.child[node]].apex;
   const auto seconds = float(std::min(double(options_.morph_s), seconds_left()));
   if (double(seconds) < k_least_seconds) return refresh_diamond(node);
-  tree_.vertices.begin_motion(vertex, from_z, tree_.vertices.world[vertex].z, seconds);
+  tree_.vertices.begin_motion(vertex, from_z, tree_.vertices.points[vertex].world.z, seconds);
   motions_.push_back({node, vertex});
 }
 
@@ -51,7 +51,8 @@ void RoamEngine::fall(uint32_t node) {
   const uint32_t vertex = tree_.corner[tree_.child[node]].apex;
   forget_diamond(node);
   falling_surplus_ += merge_gain(node);
-  v.begin_motion(vertex, v.world[vertex].z, 0.5 * (v.world[c.left].z + v.world[c.right].z), seconds);
+  v.begin_motion(vertex, v.points[vertex].world.z, 0.5 * (v.points[c.left].world.z + v.points[c.right].world.z),
+                 seconds);
   motions_.push_back({node, vertex});
   for (const uint32_t half : {node, tree_.neighbour[node].base}) {
     if (half == k_none) continue;
@@ -79,7 +80,7 @@ void RoamEngine::stop_fall(uint32_t node) {
   }
   // Its entry in motions_ stays.
   const double seconds = std::max(std::min(double(options_.morph_s), seconds_left()), k_least_seconds);
-  v.begin_motion(vertex, v.drawn_z(vertex), v.world[vertex].z, float(seconds));
+  v.begin_motion(vertex, v.drawn_z(vertex), v.points[vertex].world.z, float(seconds));
 }
 
 // False when the diamond is gone or its centre rests.

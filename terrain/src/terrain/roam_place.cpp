@@ -11,34 +11,43 @@ namespace sward::roam {
 
 namespace {
 
-// A leaf that is about to leave the view may be drawn for so many ticks more, while the view moves.
-constexpr float k_patience = 80;
+// A diamond with a half that is above the guard for so many ticks need not look at the other one.
+constexpr float k_long_enough = 64;
 
 }  // namespace
 
 Assessment RoamEngine::assess(uint32_t node, CullFlags inherited) const {
   const Corners& c = tree_.corner[node];
   if (!view_ || inherited & k_out || c.bound < 0) return {};
-  return projection_.assess(lanes(c.apex), lanes(c.left), lanes(c.right), c.bound, inherited);
+  return projection_.assess(forms(c.apex), forms(c.left), forms(c.right), c.bound, inherited);
 }
 
 CullFlags RoamEngine::inherited_flags(uint32_t node) const {
-  const uint32_t parent = tree_.parent[node];
+  const uint32_t parent = tree_.nodes[node].parent;
   return parent == k_none ? CullFlags(0) : state_[parent].cull;
 }
 
 void RoamEngine::take_vertex(uint32_t vertex) {
-  seen_[vertex].world = tree_.vertices.world[vertex];
+  seen_[vertex].world = tree_.vertices.points[vertex].world;
   seen_[vertex].view = 0;
+}
+
+void RoamEngine::take_node(uint32_t node) {
+  const Corners& c = tree_.corner[node];
+  const VertexPool& v = tree_.vertices;
+  wedgie_[node].place(v.points[c.apex].world, v.points[c.left].world, v.points[c.right].world, c.bound);
 }
 
 void RoamEngine::grow_arrays() {
   const size_t nodes = tree_.size();
   if (state_.size() < nodes) {
     state_.resize(nodes);
+    wedgie_.resize(nodes);
+    lingering_.reserve(wedgie_.capacity());
+    lingered_.reserve(2 * wedgie_.capacity());
     draws_.grow(nodes);
   }
-  const size_t vertices = tree_.vertices.lattice.size();
+  const size_t vertices = tree_.vertices.points.size();
   if (seen_.size() < vertices) seen_.resize(vertices);
 }
 
@@ -48,32 +57,41 @@ void RoamEngine::show(uint32_t leaf) {
   draws_.add(leaf, c.apex, c.left, c.right);
 }
 
-// `ticks`, cut to the time after which a visible node may be out of sight. That it may go on for a while although it is
-// out is noted for `entry`.
-float RoamEngine::until_side_changes(uint32_t node, uint32_t entry, const Reading& reading, float ticks) {
-  const float side_ticks = projection_.side_ticks(seen(node), reading, units_);
+void RoamEngine::note_lingering(uint32_t node) {
+  if (wedgie_[node].lingers == lingering_list_) return;
+  wedgie_[node].lingers = lingering_list_;
+  lingering_.push_back(node);
+}
+
+// `ticks`, cut to the time at which a visible node is going to be out of sight if the view goes on moving as it does.
+// It may be out before that: such nodes are noted. They cost some of the budget and nothing else.
+float RoamEngine::until_side_changes(uint32_t node, const Reading& reading, float ticks) {
+  const float side_ticks = projection_.side_ticks(reading, units_);
   if (side_ticks >= ticks) return ticks;
-  if (side_ticks >= k_patience) return side_ticks;
-  lingering_.push_back(entry);
-  return std::min(ticks, k_patience);
+  const float leaves = std::clamp(projection_.ticks_to_leave(reading), k_least_patience, k_most_patience);
+  if (side_ticks >= leaves) return side_ticks;
+  note_lingering(node);
+  return std::min(ticks, leaves);
 }
 
 // For a visible node that acts as a leaf.
 void RoamEngine::place(uint32_t node, const Reading& reading) {
-  NodeState& s = state_[node];
-  s.priority = reading.priority;
   if (!options_.plain) {
-    float ticks = projection_.below_ticks(seen(node), reading, leaf_guard_, units_);
-    if (ticks > 0) ticks = until_side_changes(node, node, reading, ticks);
+    Wedgie& w = wedgie_[node];
+    float ticks = projection_.below_ticks(reading, leaf_guard_, units_);
+    if (ticks > 0) ticks = until_side_changes(node, reading, ticks);
     if (const uint32_t tick = leaf_calendar_.tick_after(ticks); tick != 0) {
-      unplace(node);
-      s.due = tick;
+      // What is in the calendar is not queued.
+      if (w.due < Calendar::k_first_tick) unplace(node);
+      w.due = tick;
       leaf_calendar_.enter(node, tick);
       return;
     }
-    if (s.due != hot_mark_) hot_leaves_.push_back(node);
-    s.due = hot_mark_;
+    if (w.due != hot_mark_) hot_leaves_.push_back(node);
+    w.due = hot_mark_;
   }
+  NodeState& s = state_[node];
+  s.priority = reading.priority;
   const bool blocked = reading.bound > 0 && tree_.is_leaf(node) && !tree_.splittable(node);
   BucketQueue& queue = blocked ? blocked_queue_ : split_queue_;
   if (s.queued() && s.blocked == blocked) return queue.change_key(state_, node, reading.priority);
@@ -87,7 +105,7 @@ void RoamEngine::unplace(uint32_t node) {
   NodeState& s = state_[node];
   if (s.queued()) (s.blocked ? blocked_queue_ : split_queue_).remove(state_, node);
   s.blocked = false;
-  s.due = 0;
+  if (!options_.plain) wedgie_[node].due = 0;
 }
 
 // The node itself, not its sub-tree.
@@ -99,21 +117,21 @@ void RoamEngine::mark_out(uint32_t node) {
   } else if (s.cull & k_falling) {
     unplace(node);
   }
-  s.due = 0;
+  if (!options_.plain) wedgie_[node].due = 0;
   s.priority = -1;
   s.cull = CullFlags((s.cull & k_falling) | k_out);
 }
 
 // The topmost node of what is out has to be looked at before it may come in; padding never does.
 void RoamEngine::watch_out(uint32_t node, const Reading& reading) {
-  NodeState& s = state_[node];
-  s.due = 0;
-  if (options_.plain || tree_.corner[node].bound < 0) return;
-  if (const uint32_t tick = out_calendar_.tick_after(projection_.side_ticks(seen(node), reading, units_)); tick != 0) {
-    s.due = tick;
+  Wedgie& w = wedgie_[node];
+  w.due = 0;
+  if (w.bound < 0) return;
+  if (const uint32_t tick = out_calendar_.tick_after(projection_.side_ticks(reading, units_)); tick != 0) {
+    w.due = tick | k_watch;
     out_calendar_.enter(node, tick);
   } else {
-    s.due = hot_mark_;
+    w.due = hot_mark_ | k_watch;
     hot_outs_.push_back(node);
   }
 }
@@ -121,10 +139,10 @@ void RoamEngine::watch_out(uint32_t node, const Reading& reading) {
 // A node whose sub-tree is out. If its parent's is, too, that takes its place.
 void RoamEngine::go_out(uint32_t node, const Reading& reading) {
   mark_out(node);
-  const uint32_t parent = tree_.parent[node];
+  const uint32_t parent = tree_.nodes[node].parent;
   if (!options_.plain && parent != k_none && !is_visible(tree_.child[parent]) && !is_visible(tree_.child[parent] + 1)) {
     if (const Reading of_parent = read(parent); of_parent.out()) {
-      state_[tree_.child[parent]].due = state_[tree_.child[parent] + 1].due = 0;
+      wedgie_[tree_.child[parent]].due = wedgie_[tree_.child[parent] + 1].due = 0;
       go_out(parent, of_parent);
       refresh_diamond(parent);
       return;
@@ -137,8 +155,7 @@ void RoamEngine::go_out(uint32_t node, const Reading& reading) {
 void RoamEngine::come_in(uint32_t node, const Reading& reading) {
   NodeState& s = state_[node];
   s.cull = CullFlags(s.cull & k_falling);
-  s.due = 0;
-  s.priority = reading.priority;
+  wedgie_[node].due = 0;
   if (tree_.is_leaf(node)) {
     show(node);
     if (!in_falling(node)) place(node, reading);
@@ -164,40 +181,51 @@ void RoamEngine::refresh_diamond(uint32_t node) {
 }
 
 void RoamEngine::place_diamond(uint32_t diamond) {
-  NodeState& s = state_[diamond];
+  const std::optional<float> key = options_.plain ? plain_key(diamond) : defer_diamond(diamond);
+  if (!key) return;
+  if (state_[diamond].half_queued) return merge_queue_.change_key(state_, diamond, *key);
+  merge_queue_.insert(state_, diamond, *key);
+  mark_halves(diamond, true);
+}
+
+float RoamEngine::plain_key(uint32_t diamond) const {
+  float key = -1;
+  for (const uint32_t half : {diamond, tree_.neighbour[diamond].base})
+    if (half != k_none && is_visible(half)) key = std::max(key, state_[half].priority);
+  return key;
+}
+
+// Enters a diamond that is above the guard in the calendar; otherwise returns its priority. That a half may leave the
+// view needs no looks: when its leaves have gone out, so does it.
+std::optional<float> RoamEngine::defer_diamond(uint32_t diamond) {
+  Wedgie& w = wedgie_[diamond];
+  w.diamond_due = 0;
   float key = -1, ticks = 0;
   bool in_sight = false;
   for (const uint32_t half : {diamond, tree_.neighbour[diamond].base}) {
     if (half == k_none || !is_visible(half)) continue;
     in_sight = true;
-    if (options_.plain) {
-      key = std::max(key, state_[half].priority);
-      continue;
-    }
     const Reading reading = read(half);
     key = std::max(key, reading.priority);
-    const float above_ticks = projection_.above_ticks(seen(half), reading, diamond_guard_, units_);
-    // Without patience: out of sight it has no priority, which is not above the guard.
-    if (above_ticks > 0)
-      ticks = std::max(ticks, std::min(above_ticks, projection_.side_ticks(seen(half), reading, units_)));
+    ticks = std::max(ticks, projection_.above_ticks(reading, diamond_guard_, units_));
+    if (ticks >= k_long_enough) break;
   }
-  s.diamond_due = 0;
-  if (!options_.plain && in_sight) {
-    if (const uint32_t tick = diamond_calendar_.tick_after(ticks); tick != 0) {
-      if (s.half_queued) {
-        merge_queue_.remove(state_, diamond);
-        mark_halves(diamond, false);
-      }
-      s.diamond_due = tick;
-      diamond_calendar_.enter(diamond, tick);
-      return;
-    }
-    s.diamond_due = hot_mark_;
-    hot_diamonds_.push_back(diamond);
+  if (!in_sight) return key;
+  if (const uint32_t tick = diamond_calendar_.tick_after(ticks); tick != 0) {
+    unqueue_diamond(diamond);
+    w.diamond_due = tick;
+    diamond_calendar_.enter(diamond, tick);
+    return {};
   }
-  if (s.half_queued) return merge_queue_.change_key(state_, diamond, key);
-  merge_queue_.insert(state_, diamond, key);
-  mark_halves(diamond, true);
+  w.diamond_due = hot_mark_;
+  hot_diamonds_.push_back(diamond);
+  return key;
+}
+
+void RoamEngine::unqueue_diamond(uint32_t diamond) {
+  if (!state_[diamond].half_queued) return;
+  merge_queue_.remove(state_, diamond);
+  mark_halves(diamond, false);
 }
 
 void RoamEngine::mark_halves(uint32_t node, bool queued) {
@@ -208,10 +236,8 @@ void RoamEngine::mark_halves(uint32_t node, bool queued) {
 void RoamEngine::forget_diamond(uint32_t node) {
   if (node == k_none) return;
   const uint32_t diamond = tree_.diamond_of(node);
-  state_[diamond].diamond_due = 0;
-  if (!state_[diamond].half_queued) return;
-  merge_queue_.remove(state_, diamond);
-  mark_halves(diamond, false);
+  if (!options_.plain) wedgie_[diamond].diamond_due = 0;
+  unqueue_diamond(diamond);
 }
 
 int RoamEngine::merge_gain(uint32_t node) const {

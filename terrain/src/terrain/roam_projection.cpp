@@ -45,26 +45,26 @@ double size_of_bivector(glm::dvec4 a, glm::dvec4 b) {
 
 Projection::Projection(const View& view) : eye_(view.eye) {
   const std::array<Plane, 6> planes = frustum_planes(view);
-  std::array<glm::dvec4, k_forms> forms{};
+  std::array<glm::dvec4, Forms::k_forms> forms{};
   for (size_t i = 0; i < 6; ++i) {
     const bool infinite = planes[i].n == glm::dvec3(0.0);
     forms[i] = glm::dvec4(planes[i].n, infinite ? k_infinitely_inside : planes[i].d);
-    reach_[i] = float(std::abs(planes[i].n.z));
+    reach_.set(int(i), float(std::abs(planes[i].n.z)));
   }
   const glm::dmat4 rows = glm::transpose(view.clip_from_relative());
   const glm::dvec4 to_x = rows[0] * (0.5 * view.viewport.x), to_y = rows[1] * (0.5 * view.viewport.y), to_w = rows[3];
-  forms[6] = to_x.z * to_w - to_w.z * to_x;
-  forms[7] = to_y.z * to_w - to_w.z * to_y;
-  forms[8] = to_w;
-  for (size_t i = 0; i < k_forms; ++i) {
-    form_x_[i] = float(forms[i].x);
-    form_y_[i] = float(forms[i].y);
-    form_z_[i] = float(forms[i].z);
-    form_1_[i] = float(forms[i].w);
+  forms[Forms::k_x] = to_x.z * to_w - to_w.z * to_x;
+  forms[Forms::k_y] = to_y.z * to_w - to_w.z * to_y;
+  forms[Forms::k_w] = to_w;
+  for (int i = 0; i < Forms::k_forms; ++i) {
+    form_x_.set(i, float(forms[size_t(i)].x));
+    form_y_.set(i, float(forms[size_t(i)].y));
+    form_z_.set(i, float(forms[size_t(i)].z));
+    form_1_.set(i, float(forms[size_t(i)].w));
   }
   depth_per_metre_ = float(std::abs(to_w.z));
-  x_axis_ = glm::vec3(forms[6]);
-  y_axis_ = glm::vec3(forms[7]);
+  x_axis_ = glm::vec3(forms[Forms::k_x]);
+  y_axis_ = glm::vec3(forms[Forms::k_y]);
   w_axis_ = glm::vec3(forms[8]);
   x_turn_ = glm::vec3(glm::cross(glm::dvec3(to_x), glm::dvec3(to_w)));
   y_turn_ = glm::vec3(glm::cross(glm::dvec3(to_y), glm::dvec3(to_w)));
@@ -76,16 +76,51 @@ Projection::Projection(const View& view) : eye_(view.eye) {
   depth_rate_ = float(glm::length(glm::dvec3(to_w)));
 }
 
-Lanes Projection::project(glm::dvec3 world) const {
-  const glm::vec3 p(world - eye_);
-  float value[k_forms];
-  for (int i = 0; i < k_forms; ++i) value[i] = form_x_[i] * p.x + form_y_[i] * p.y + form_z_[i] * p.z + form_1_[i];
-  Lanes out;
-  std::copy_n(value, 6, out.side);
-  out.x = value[6];
-  out.y = value[7];
-  out.w = value[8];
-  return out;
+Reading Projection::read(const Wedgie& wedgie) const {
+  Reading r;
+  if (wedgie.bound < 0) return r;
+  r.bound = wedgie.bound;
+  r.at[0] = glm::vec3(wedgie.apex - eye_);
+  r.at[1] = r.at[0] + wedgie.to_left;
+  r.at[2] = r.at[0] + wedgie.to_right;
+  for (int corner = 0; corner < 3; ++corner) r.form[corner] = project(r.at[corner]);
+  const auto& [a, b, c] = r.form;
+  const Lanes first = larger(a.lane[0], larger(b.lane[0], c.lane[0])) + r.bound * reach_.lane[0];
+  const Lanes second = larger(a.lane[1], larger(b.lane[1], c.lane[1])) + r.bound * reach_.lane[1];
+  r.farthest[0] = first;
+  r.farthest[1] = second;
+  r.outside =
+      std::min(std::min(std::min(first[0], first[1]), std::min(first[2], first[3])), std::min(second[0], second[1]));
+  r.near_inside = std::min(a.side(4), std::min(b.side(4), c.side(4))) - r.bound * reach_.side(4);
+  if (r.out()) return r;
+  const float nearest = std::min(a.w(), std::min(b.w(), c.w()));
+  r.priority = priority(thickness(a, b, c), nearest, r.bound, r.near_inside >= 0);
+  return r;
+}
+
+void Projection::expect(const Projection& before, double ticks) {
+  if (!(ticks > 0)) return;
+  const glm::vec3 travel(eye_ - before.eye_);
+  const float per_tick = float(1 / ticks);
+  for (int i = 0; i < 2; ++i) {
+    rate_x_[i] = per_tick * (form_x_.lane[i] - before.form_x_.lane[i]);
+    rate_y_[i] = per_tick * (form_y_.lane[i] - before.form_y_.lane[i]);
+    rate_z_[i] = per_tick * (form_z_.lane[i] - before.form_z_.lane[i]);
+    // A point at p now was at p + travel, seen from the last eye.
+    rate_1_[i] = per_tick * (form_1_.lane[i] - before.form_1_.lane[i] - before.form_x_.lane[i] * travel.x -
+                             before.form_y_.lane[i] * travel.y - before.form_z_.lane[i] * travel.z);
+  }
+}
+
+float Projection::ticks_to_leave(const Reading& r) const {
+  const glm::vec3 p = (r.at[0] + r.at[1] + r.at[2]) / 3.0f;
+  float least = Calendar::k_span;
+  for (int i = 0; i < 2; ++i) {
+    const Lanes rate = rate_x_[i] * p.x + rate_y_[i] * p.y + rate_z_[i] * p.z + rate_1_[i];
+    for (int lane = 0; lane < (i == 0 ? 4 : 2); ++lane)
+      if (rate[lane] * least < -r.farthest[i][lane]) least = -r.farthest[i][lane] / rate[lane];
+  }
+  return least;
 }
 
 // What a tick may change a wedgie's priority by: L and Q upwards and downwards, and the ticks for which they hold.
@@ -94,29 +129,29 @@ struct Projection::Change {
   float range = 0;  // of the farthest corner, metres
 };
 
-float Projection::side_ticks(const Seen& seen, const Reading& r, const TickUnits& units) const {
-  const glm::vec3 p(*seen.world[0] - eye_), q(*seen.world[1] - eye_), t(*seen.world[2] - eye_);
+float Projection::side_ticks(const Reading& r, const TickUnits& units) const {
+  const glm::vec3 &p = r.at[0], &q = r.at[1], &t = r.at[2];
   const float range = std::sqrt(std::max(glm::dot(p, p), std::max(glm::dot(q, q), glm::dot(t, t)))) + r.bound;
   const float slack = std::abs(r.outside);
   return slack / (units.metres + units.radians * (range + slack));
 }
 
-Projection::Change Projection::change_of(const Seen& seen, const Reading& r, const TickUnits& units) const {
+Projection::Change Projection::change_of(const Reading& r, const TickUnits& units) const {
   int a = 0, b = 0;
-  float square[3], range2 = 0;
-  glm::vec3 p[3];
+  float x[3], y[3], square[3], range2 = 0;
+  const glm::vec3* p = r.at;
   for (int i = 0; i < 3; ++i) {
-    const Lanes& l = *seen.lanes[i];
-    p[i] = glm::vec3(*seen.world[i] - eye_);
-    square[i] = l.x * l.x + l.y * l.y;
+    x[i] = r.form[i].x();
+    y[i] = r.form[i].y();
+    square[i] = x[i] * x[i] + y[i] * y[i];
     range2 = std::max(range2, glm::dot(p[i], p[i]));
     if (square[i] > square[a]) a = i;
-    if (l.w < seen.lanes[b]->w) b = i;
+    if (r.form[i].w() < r.form[b].w()) b = i;
   }
-  const Lanes &la = *seen.lanes[a], &lb = *seen.lanes[b];
-  const float n = std::sqrt(square[a]), inverse = 1 / n, w = lb.w, reach = r.bound * depth_per_metre_;
+  const float n = std::sqrt(square[a]), inverse = 1 / n, w = r.form[b].w();
+  const float reach = r.bound * depth_per_metre_;
   const float margin = w - reach, per_depth = 2 * w / (margin * (w + reach));
-  const float ux = la.x * inverse, uy = la.y * inverse;
+  const float ux = x[a] * inverse, uy = y[a] * inverse;
   // Vertical x P.
   const glm::vec3 arm(-p[a].y, p[a].x, 0);
   const glm::vec3 travel = inverse * (ux * x_axis_ + uy * y_axis_) - per_depth * w_axis_;
@@ -129,7 +164,7 @@ Projection::Change Projection::change_of(const Seen& seen, const Reading& r, con
   const float h = depth_rate_ * metres / margin;
   float spread = 0;
   for (int i = 0; i < 3; ++i) {
-    const float dx = seen.lanes[i]->x - la.x, dy = seen.lanes[i]->y - la.y;
+    const float dx = x[i] - x[a], dy = y[i] - y[a];
     spread = std::max(spread, dx * dx + dy * dy);
   }
   spread = 2 * std::sqrt(spread) * inverse;
@@ -158,20 +193,20 @@ float solve(float l, float q, float limit) {
 
 }  // namespace
 
-float Projection::below_ticks(const Seen& seen, const Reading& r, float guard, const TickUnits& units) const {
+float Projection::below_ticks(const Reading& r, float guard, const TickUnits& units) const {
   if (r.priority * k_rounding > guard) return 0;
   if (r.bound <= 0) return float(Calendar::k_span);
   if (!(r.priority > 0) || r.near_inside <= 0) return 0;
-  const Change c = change_of(seen, r, units);
+  const Change c = change_of(r, units);
   const float limit = std::log(guard / (r.priority * k_rounding));
   const float near_ticks = r.near_inside / (units.metres + units.radians * (c.range + r.near_inside));
   return std::min(std::min(solve(c.linear_up, c.square_up, limit), limit / units.log_guard),
                   std::min(c.valid, near_ticks));
 }
 
-float Projection::above_ticks(const Seen& seen, const Reading& r, float guard, const TickUnits& units) const {
+float Projection::above_ticks(const Reading& r, float guard, const TickUnits& units) const {
   if (r.priority <= guard * k_rounding || r.priority >= RoamMesh::k_artificial_max) return 0;
-  const Change c = change_of(seen, r, units);
+  const Change c = change_of(r, units);
   const float limit = std::log(r.priority / (guard * k_rounding));
   return std::min(std::min(solve(c.linear_down, c.square_down, limit), limit / units.log_guard), c.valid);
 }

@@ -13,20 +13,13 @@
 #include <glm/glm.hpp>
 
 #include "roam_calendar.h"
+#include "roam_lanes.h"
 #include "roam_queue.h"
 
 namespace sward::roam {
 
 inline constexpr CullFlags k_in_near = 1 << 4;
 inline constexpr unsigned k_all_halfspaces = 0x3f;
-
-/// What a view makes of one vertex.
-struct Lanes {
-  float side[6];  ///< Distances to the halfspaces of frustum_planes(), metres.
-  /// Pixels of thickness that 1 m of bound gives, times w squared, halved: the length of this.
-  float x, y;
-  float w;  ///< The depth ahead of the eye; 1 without perspective.
-};
 
 /// Culling flags and priority of a wedgie.
 struct Assessment {
@@ -40,14 +33,30 @@ struct Reading {
   float outside = -1;     ///< Least over the halfspaces of the largest distance; out when negative. Metres.
   float near_inside = 0;  ///< Least distance to the near plane; negative when the wedgie may cross it.
   float priority = -1;    ///< Pixels; -1 when out.
+  Lanes farthest[2];      ///< Largest distances to the halfspaces; the last two pad.
+  // Of apex, left and right.
+  Forms form[3];
+  glm::vec3 at[3];  ///< Relative to the eye, metres.
 
   bool out() const { return outside < 0; }
 };
 
-/// Corners of a triangle for one view, and where they are.
-struct Seen {
-  const Lanes* lanes[3];
-  const glm::dvec3* world[3];
+/// All that a deferred look at a node reads, in one cache line: where its wedgie is, and until when what was found out
+/// about it holds.
+struct alignas(64) Wedgie {
+  glm::dvec3 apex{0};                 ///< World.
+  glm::vec3 to_left{0}, to_right{0};  ///< From the apex, metres.
+  float bound = -1;                   ///< Metres; negative in the padding.
+  uint32_t due = 0;                   ///< Tick or mark at which the node is looked at again; 0: no such time.
+  uint32_t diamond_due = 0;           ///< The same for the diamond that the node stands for.
+  uint32_t lingers = 0;               ///< The list of what lingers that the node was noted in last.
+
+  void place(glm::dvec3 a, glm::dvec3 left, glm::dvec3 right, float its_bound) {
+    apex = a;
+    to_left = glm::vec3(left - a);
+    to_right = glm::vec3(right - a);
+    bound = its_bound;
+  }
 };
 
 /// Projection of vertices and wedgies.
@@ -63,56 +72,53 @@ class Projection {
   Projection() = default;
   explicit Projection(const View& view);
 
-  Lanes project(glm::dvec3 world) const;
+  Forms project(glm::dvec3 world) const { return project(glm::vec3(world - eye_)); }
 
   /// `bound` in metres, negative for what is never visible; `parent` the parent's flags (0 for a root).
-  Assessment assess(const Lanes& apex, const Lanes& left, const Lanes& right, float bound, CullFlags parent) const {
+  Assessment assess(const Forms& apex, const Forms& left, const Forms& right, float bound, CullFlags parent) const {
     if (parent & k_out || bound < 0) return {};
     // What the parent is wholly inside of needs no test.
     unsigned inside = parent & k_all_halfspaces;
     for (unsigned rest = k_all_halfspaces & ~inside; rest != 0; rest &= rest - 1) {
       const int i = std::countr_zero(rest);
       const float reach = bound * reach_[i];
-      const float a = apex.side[i], b = left.side[i], c = right.side[i];
+      const float a = apex.side(i), b = left.side(i), c = right.side(i);
       if (std::max(a, std::max(b, c)) + reach < 0) return {};
       inside |= unsigned(std::min(a, std::min(b, c)) - reach >= 0) << i;
     }
-    const float nearest = std::min(apex.w, std::min(left.w, right.w));
+    const float nearest = std::min(apex.w(), std::min(left.w(), right.w()));
     return {CullFlags(inside), priority(thickness(apex, left, right), nearest, bound, inside & k_in_near)};
   }
 
   /// The same without a parent, with what the ticks below need.
-  Reading read(const Lanes& apex, const Lanes& left, const Lanes& right, float bound) const {
-    Reading r;
-    if (bound < 0) return r;
-    r.bound = bound;
-    float farthest[6];
-    for (int i = 0; i < 6; ++i)
-      farthest[i] = std::max(apex.side[i], std::max(left.side[i], right.side[i])) + bound * reach_[i];
-    r.outside = std::min(std::min(std::min(farthest[0], farthest[1]), std::min(farthest[2], farthest[3])),
-                         std::min(farthest[4], farthest[5]));
-    r.near_inside = std::min(apex.side[4], std::min(left.side[4], right.side[4])) - bound * reach_[4];
-    if (r.out()) return r;
-    const float nearest = std::min(apex.w, std::min(left.w, right.w));
-    r.priority = priority(thickness(apex, left, right), nearest, bound, r.near_inside >= 0);
-    return r;
-  }
+  Reading read(const Wedgie& wedgie) const;
+
+  /// Motion so far, from the view of `before` within so many ticks: it is expected to go on.
+  void expect(const Projection& before, double ticks);
+  /// In how many ticks a wedgie is going to be out if the view moves as expected; for some time it may go on for ever.
+  float ticks_to_leave(const Reading& r) const;
 
   // How many ticks a finding surely lasts. See roam_projection.cpp.
 
   /// That a wedgie is out, or that it is not.
-  float side_ticks(const Seen& seen, const Reading& r, const TickUnits& units) const;
+  float side_ticks(const Reading& r, const TickUnits& units) const;
   /// That the priority is at most `guard`, while the guard may fall; 0 when it is not.
-  float below_ticks(const Seen& seen, const Reading& r, float guard, const TickUnits& units) const;
+  float below_ticks(const Reading& r, float guard, const TickUnits& units) const;
   /// That the priority is at least `guard`, while the guard may rise; 0 when it is not.
-  float above_ticks(const Seen& seen, const Reading& r, float guard, const TickUnits& units) const;
+  float above_ticks(const Reading& r, float guard, const TickUnits& units) const;
 
  private:
   struct Change;
-  Change change_of(const Seen& seen, const Reading& r, const TickUnits& units) const;
+  Change change_of(const Reading& r, const TickUnits& units) const;
 
-  static float thickness(const Lanes& a, const Lanes& b, const Lanes& c) {
-    return std::sqrt(std::max(a.x * a.x + a.y * a.y, std::max(b.x * b.x + b.y * b.y, c.x * c.x + c.y * c.y)));
+  Forms project(glm::vec3 p) const {
+    Forms out;
+    for (int i = 0; i < Forms::k_lanes; ++i)
+      out.lane[i] = form_x_.lane[i] * p.x + form_y_.lane[i] * p.y + form_z_.lane[i] * p.z + form_1_.lane[i];
+    return out;
+  }
+  static float thickness(const Forms& a, const Forms& b, const Forms& c) {
+    return std::sqrt(std::max(a.square(), std::max(b.square(), c.square())));
   }
   float priority(float thickness, float w, float bound, bool inside_near) const {
     if (bound <= 0) return 0;
@@ -122,12 +128,12 @@ class Projection {
     return std::min(2 * bound * thickness / denominator, RoamMesh::k_artificial_max);
   }
 
-  static constexpr int k_forms = 12;  // 6 halfspaces, x and y of the numerator, w; the rest pads
-
   glm::dvec3 eye_{0};
-  float form_x_[k_forms] = {}, form_y_[k_forms] = {}, form_z_[k_forms] = {}, form_1_[k_forms] = {};
-  std::array<float, 8> reach_{};  // |n.z| of the halfspaces
-  float depth_per_metre_ = 0;     // |C|
+  Forms form_x_{}, form_y_{}, form_z_{}, form_1_{};
+  Forms reach_{};              // |n.z| of the halfspaces
+  float depth_per_metre_ = 0;  // |C|
+  // Changes of the distances to the halfspaces a tick, as expected.
+  Lanes rate_x_[2] = {}, rate_y_[2] = {}, rate_z_[2] = {}, rate_1_[2] = {};
   // Gradients of x, y and w in the eye's travel, and the axes by which they change when the view turns.
   glm::vec3 x_axis_{0}, y_axis_{0}, w_axis_{0}, x_turn_{0}, y_turn_{0};
   // Limits of change: of (x, y) per metre; per radian in any case; of w per metre.

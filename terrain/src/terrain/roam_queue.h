@@ -21,15 +21,16 @@ inline constexpr CullFlags k_out = 0x80;
 /// The centre of this split node's diamond is on its way down: its halves count as leaves already.
 inline constexpr CullFlags k_falling = 0x40;
 
+/// Set in the tick at which a node that is out is looked at.
+inline constexpr uint32_t k_watch = 0x80000000u;
+
 /// What a view makes of a node, and its place in the split queue (a leaf, or half of a falling diamond) or the merge
 /// queue (a split node, for its diamond). Two share a cache line, as siblings do.
 struct alignas(32) NodeState {
   static constexpr uint32_t k_unqueued = 0xffffffffu;
   uint32_t previous = k_none, next = k_none;
   float key = 0;
-  float priority = -1;       ///< Of the node's own triangle when last looked at, pixels; -1 when it was out.
-  uint32_t due = 0;          ///< Tick or mark at which the node is looked at again; 0: no such time.
-  uint32_t diamond_due = 0;  ///< The same for the diamond that the node stands for.
+  float priority = -1;  ///< Of the node's own triangle, pixels; -1 when it is out. Only with RoamOptions::plain.
   uint32_t bucket = k_unqueued;
   CullFlags cull = k_out;
   bool half_queued = false;  ///< Split node: its diamond is in the merge queue.

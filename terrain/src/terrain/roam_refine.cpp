@@ -51,7 +51,7 @@ void RoamEngine::split_one(uint32_t node) {
   bool seen = false;
   for (const uint32_t half : halves) {
     if (half == k_none) continue;
-    const uint32_t parent = tree_.parent[half];
+    const uint32_t parent = tree_.nodes[half].parent;
     if (in_falling(half)) stop_fall(parent);
     if (parent != k_none) forget_diamond(parent);
     if (!is_visible(half)) continue;
@@ -70,6 +70,8 @@ void RoamEngine::split_one(uint32_t node) {
     near |= is_visible(half) && read(half).priority >= RoamMesh::k_artificial_max;
     for (uint32_t child = tree_.child[half]; child <= tree_.child[half] + 1; ++child) {
       state_[child] = {};
+      wedgie_[child] = {};
+      take_node(child);
       if (is_visible(half)) look(child, state_[half].cull);
     }
   }
@@ -109,7 +111,7 @@ void RoamEngine::merge_now(uint32_t node) {
     }
   }
   for (const uint32_t half : halves)
-    if (half != k_none) refresh_diamond(tree_.parent[half]);
+    if (half != k_none) refresh_diamond(tree_.nodes[half].parent);
 }
 
 Reading RoamEngine::plain_reading(uint32_t node) const {
@@ -181,7 +183,7 @@ RoamEngine::Room RoamEngine::room_for(const Chain& chain) const {
   int64_t rising = 0;
   for (int i = 0; i < chain.length; ++i)
     for (const uint32_t half : {chain.node[i], tree_.neighbour[chain.node[i]].base})
-      if (half != k_none && in_falling(half)) rising += merge_gain(tree_.parent[half]);
+      if (half != k_none && in_falling(half)) rising += merge_gain(tree_.nodes[half].parent);
   if (most + rising <= decided_room && most <= drawn_room) return Room::enough;
   const int cost = split_cost(chain);
   if (cost + rising > decided_room) return Room::full;
@@ -275,7 +277,7 @@ bool RoamEngine::out_of_time() {
 // A triangle that may not exist yet.
 struct RoamEngine::Ghost {
   TriangleCorners corners;
-  Lanes apex, left, right;
+  glm::dvec3 apex, left, right;  // world
   int level = 0;
   Cover cover = Cover::inside;
   CullFlags cull = k_out;
@@ -283,17 +285,24 @@ struct RoamEngine::Ghost {
 
 RoamEngine::Ghost RoamEngine::ghost(uint32_t node) const {
   const Corners& c = tree_.corner[node];
-  return {tree_.corners(node),    lanes(c.apex),     lanes(c.left),    lanes(c.right),
-          tree_.id[node].level(), tree_.cover[node], state_[node].cull};
+  const auto world = [this](uint32_t vertex) { return tree_.vertices.points[vertex].world; };
+  return {tree_.corners(node),          world(c.apex),           world(c.left),    world(c.right),
+          tree_.nodes[node].id.level(), tree_.nodes[node].cover, state_[node].cull};
 }
 
 // As look() will find it.
 CullFlags RoamEngine::sees(const Ghost& g, float bound, CullFlags inherited) const {
-  if (options_.plain || inherited & k_out) return projection_.assess(g.apex, g.left, g.right, bound, inherited).cull;
-  return projection_.read(g.apex, g.left, g.right, bound).out() ? k_out : CullFlags(0);
+  if (inherited & k_out) return k_out;
+  if (options_.plain) {
+    const auto forms = [&](glm::dvec3 p) { return projection_.project(p); };
+    return projection_.assess(forms(g.apex), forms(g.left), forms(g.right), bound, inherited).cull;
+  }
+  Wedgie wedgie;
+  wedgie.place(g.apex, g.left, g.right, bound);
+  return projection_.read(wedgie).out() ? k_out : CullFlags(0);
 }
 
-RoamEngine::Ghost RoamEngine::ghost_child(const Ghost& of, int turn, const Lanes& middle) const {
+RoamEngine::Ghost RoamEngine::ghost_child(const Ghost& of, int turn, glm::dvec3 middle) const {
   Ghost child = of;
   child.corners = child_corners(of.corners, turn);
   child.apex = middle;
@@ -317,7 +326,7 @@ int RoamEngine::split_cost(const Chain& chain) const {
   for (int i = chain.length; i-- > 0;) {
     const Ghost own = ghost(chain.node[i]);
     const LatticePoint m = centre_of(own.corners);
-    const Lanes middle = projection_.project(glm::dvec3(tree_.lattice().world_xy(m), tree_.surface().height(m)));
+    const glm::dvec3 middle(tree_.lattice().world_xy(m), tree_.surface().height(m));
     const Ghost children[2] = {ghost_child(own, 0, middle), ghost_child(own, 1, middle)};
     cost += seen(children[0]) + seen(children[1]) - seen(own);
     if (across) cost += seen(ghost_child(*across, 0, middle)) + seen(ghost_child(*across, 1, middle)) - seen(*across);

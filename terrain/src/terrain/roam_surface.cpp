@@ -50,7 +50,7 @@ void RoamEngine::read_surface_again() {
 
 void RoamEngine::collapse_forbidden(uint32_t node, const LatticeBox& box) {
   if (tree_.is_leaf(node) || !meet(box_of(tree_.corners(node)), box)) return;
-  if (!tree_.surface().can_split(centre_of(tree_.corners(node)), tree_.id[node].level())) return collapse(node);
+  if (!tree_.surface().can_split(centre_of(tree_.corners(node)), tree_.nodes[node].id.level())) return collapse(node);
   for (uint32_t turn = 0; turn < 2 && tree_.is_split(node); ++turn) collapse_forbidden(tree_.child[node] + turn, box);
 }
 
@@ -60,11 +60,12 @@ void RoamEngine::reread(uint32_t node, const LatticeBox& box) {
   const Corners& c = tree_.corner[node];
   for (const uint32_t vertex : {c.apex, c.left, c.right}) {
     const LatticePoint p = tree_.vertices.lattice[vertex];
-    if (!meet({p, p}, box) || tree_.surface().height(p) == tree_.vertices.world[vertex].z) continue;
+    if (!meet({p, p}, box) || tree_.surface().height(p) == tree_.vertices.points[vertex].world.z) continue;
     tree_.vertices.reread(tree_.surface(), vertex);
     take_vertex(vertex);
   }
   tree_.reread(node);
+  take_node(node);
   visits_.push_back({node, 0});
   if (tree_.is_leaf(node)) return;
   reread(tree_.child[node], box);
@@ -73,7 +74,7 @@ void RoamEngine::reread(uint32_t node, const LatticeBox& box) {
 
 void RoamEngine::look_again(uint32_t node) {
   if (options_.plain) return look(node, inherited_flags(node));
-  const uint32_t parent = tree_.parent[node];
+  const uint32_t parent = tree_.nodes[node].parent;
   const bool below_out = parent != k_none && !is_visible(parent);
   if (below_out) return;
   if (!is_visible(node)) {

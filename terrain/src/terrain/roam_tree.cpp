@@ -43,20 +43,21 @@ Cover cover_of(const Lattice& lattice, const TriangleCorners& corners, Cover par
 }
 
 uint32_t VertexPool::add(const Surface& surface, LatticePoint point) {
-  uint32_t slot = uint32_t(lattice.size());
+  uint32_t slot = uint32_t(points.size());
   if (free_.empty()) {
     lattice.emplace_back();
-    world.emplace_back();
-    motion.emplace_back();
+    points.emplace_back();
     gpu.emplace_back();
     alive.push_back(0);
     change_.push_back(0);
+    changed.reserve(points.capacity());
+    free_.reserve(points.capacity());
   } else {
     slot = free_.back();
     free_.pop_back();
   }
   lattice[slot] = point;
-  motion[slot] = {};
+  points[slot].motion = {};
   alive[slot] = 1;
   reread(surface, slot);
   return slot;
@@ -64,15 +65,15 @@ uint32_t VertexPool::add(const Surface& surface, LatticePoint point) {
 
 void VertexPool::free(uint32_t slot) {
   alive[slot] = 0;
-  motion[slot] = {};
+  points[slot].motion = {};
   free_.push_back(slot);
 }
 
 void VertexPool::reread(const Surface& surface, uint32_t slot) {
   const LatticePoint point = lattice[slot];
-  const bool rises = moves(slot) && motion[slot].to_z == world[slot].z;
-  world[slot] = glm::dvec3(surface.lattice().world_xy(point), surface.height(point));
-  if (rises) motion[slot].to_z = world[slot].z;
+  const bool rises = moves(slot) && points[slot].motion.to_z == points[slot].world.z;
+  points[slot].world = glm::dvec3(surface.lattice().world_xy(point), surface.height(point));
+  if (rises) points[slot].motion.to_z = points[slot].world.z;
   gpu[slot].relief_gradient = glm::vec2(surface.relief_gradient(point));
   write(slot);
 }
@@ -84,7 +85,7 @@ void VertexPool::begin_changes() {
 }
 
 void VertexPool::begin_motion(uint32_t slot, double from_z, double to_z, float seconds) {
-  motion[slot] = {from_z, to_z, now, seconds};
+  points[slot].motion = {from_z, to_z, now, seconds};
   write(slot);
 }
 
@@ -92,14 +93,13 @@ void VertexPool::rebase(glm::dvec3 new_origin) {
   origin = new_origin;
   time_origin = now;
   all_changed = true;
-  for (uint32_t slot = 0; slot < lattice.size(); ++slot)
+  for (uint32_t slot = 0; slot < points.size(); ++slot)
     if (alive[slot]) write(slot);
 }
 
 void VertexPool::clear() {
   lattice.clear();
-  world.clear();
-  motion.clear();
+  points.clear();
   gpu.clear();
   alive.clear();
   change_.clear();
@@ -109,10 +109,11 @@ void VertexPool::clear() {
 }
 
 void VertexPool::write(uint32_t slot) {
-  const Motion& m = motion[slot];
+  const Motion& m = points[slot].motion;
   const bool still = m.seconds <= 0;
   RoamVertex& vertex = gpu[slot];
-  vertex.position = glm::vec3(glm::dvec3(glm::dvec2(world[slot]), still ? world[slot].z : m.to_z) - origin);
+  vertex.position =
+      glm::vec3(glm::dvec3(glm::dvec2(points[slot].world), still ? points[slot].world.z : m.to_z) - origin);
   vertex.from_z = still ? vertex.position.z : float(m.from_z - origin.z);
   vertex.start_s = still ? 0.0f : float(m.start - time_origin);
   vertex.per_second = still ? 0.0f : 1.0f / m.seconds;
@@ -130,19 +131,18 @@ RoamTree::RoamTree(const Surface& surface) : surface_(&surface), lattice_(surfac
 }
 
 void RoamTree::clear() {
-  id.clear();
+  nodes.clear();
   corner.clear();
   neighbour.clear();
-  parent.clear();
   child.clear();
-  cover.clear();
   free_pairs_.clear();
   vertices.clear();
   add_roots();
 }
 
 void RoamTree::reread(uint32_t node) {
-  if (cover[node] != Cover::padding) corner[node].bound = surface_->bound(centre_of(corners(node)), id[node].level());
+  if (nodes[node].cover != Cover::padding)
+    corner[node].bound = surface_->bound(centre_of(corners(node)), nodes[node].id.level());
 }
 
 void RoamTree::add_roots() {
@@ -184,25 +184,24 @@ uint32_t RoamTree::allocate_pair() {
     return first;
   }
   const uint32_t first = uint32_t(size());
-  const size_t count = size() + 2;
-  id.resize(count);
-  corner.resize(count);
-  neighbour.resize(count);
-  parent.resize(count, k_none);
-  child.resize(count, k_dead);
-  cover.resize(count, Cover::inside);
+  nodes.resize(first + 2);
+  corner.resize(first + 2);
+  neighbour.resize(first + 2);
+  child.resize(first + 2, k_dead);
+  free_pairs_.reserve(nodes.capacity() / 2);
   return first;
 }
 
 void RoamTree::set_node(uint32_t node, TriangleId node_id, Corners slots, uint32_t parent_node, Cover parent_cover) {
-  id[node] = node_id;
+  nodes[node].id = node_id;
   corner[node] = slots;
   neighbour[node] = {k_none, k_none, k_none};
-  parent[node] = parent_node;
+  nodes[node].parent = parent_node;
   child[node] = k_none;
   const TriangleCorners points = corners(node);
-  cover[node] = cover_of(lattice_, points, parent_cover);
-  corner[node].bound = cover[node] == Cover::padding ? -1.0f : surface_->bound(centre_of(points), node_id.level());
+  nodes[node].cover = cover_of(lattice_, points, parent_cover);
+  corner[node].bound =
+      nodes[node].cover == Cover::padding ? -1.0f : surface_->bound(centre_of(points), node_id.level());
 }
 
 TriangleCorners RoamTree::corners(uint32_t node) const {
@@ -223,8 +222,8 @@ Chain RoamTree::forced_chain(uint32_t leaf) const {
 void RoamTree::make_children(uint32_t node, uint32_t middle) {
   const uint32_t first = allocate_pair();
   const Corners c = corner[node];
-  set_node(first, id[node].child(0), {middle, c.apex, c.left, 0}, node, cover[node]);
-  set_node(first + 1, id[node].child(1), {middle, c.right, c.apex, 0}, node, cover[node]);
+  set_node(first, nodes[node].id.child(0), {middle, c.apex, c.left, 0}, node, nodes[node].cover);
+  set_node(first + 1, nodes[node].id.child(1), {middle, c.right, c.apex, 0}, node, nodes[node].cover);
   child[node] = first;
   // A child's base is a leg of its parent; its legs at the middle are shared with its sibling and with the children
   // across the parent's base.

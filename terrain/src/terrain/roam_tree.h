@@ -48,27 +48,31 @@ class VertexPool {
   /// From `from_z` to `to_z` within `seconds` (> 0) from now on.
   void begin_motion(uint32_t slot, double from_z, double to_z, float seconds);
   /// The motion is over; nothing is written, since its end is what is drawn.
-  void end_motion(uint32_t slot) { motion[slot].seconds = 0; }
-  bool moves(uint32_t slot) const { return motion[slot].seconds > 0; }
-  bool arrived(uint32_t slot) const { return now >= motion[slot].start + double(motion[slot].seconds); }
+  void end_motion(uint32_t slot) { points[slot].motion.seconds = 0; }
+  bool moves(uint32_t slot) const { return points[slot].motion.seconds > 0; }
+  bool arrived(uint32_t slot) const { return now >= points[slot].motion.start + double(points[slot].motion.seconds); }
   /// The height that is drawn now.
   double drawn_z(uint32_t slot) const {
-    const Motion& m = motion[slot];
-    if (m.seconds <= 0) return world[slot].z;
+    const Motion& m = points[slot].motion;
+    if (m.seconds <= 0) return points[slot].world.z;
     const double t = std::clamp((now - m.start) / double(m.seconds), 0.0, 1.0);
     return m.from_z + t * (m.to_z - m.from_z);
   }
   /// The point that is drawn now.
-  glm::dvec3 drawn(uint32_t slot) const { return {glm::dvec2(world[slot]), drawn_z(slot)}; }
+  glm::dvec3 drawn(uint32_t slot) const { return {glm::dvec2(points[slot].world), drawn_z(slot)}; }
 
   struct Motion {
     double from_z = 0, to_z = 0, start = 0;
     float seconds = 0;  // 0: the vertex rests on the surface
   };
+  /// One cache line.
+  struct alignas(64) Point {
+    glm::dvec3 world{0};  // on the surface
+    Motion motion;
+  };
 
   std::vector<LatticePoint> lattice;
-  std::vector<glm::dvec3> world;  // on the surface
-  std::vector<Motion> motion;
+  std::vector<Point> points;
   std::vector<RoamVertex> gpu;
   std::vector<uint8_t> alive;
   std::vector<uint32_t> changed;  // slots written since begin_changes()
@@ -104,8 +108,15 @@ struct Chain {
   int length = 0;
 };
 
-/// Topology of the bintree: nodes in pairs (siblings are i and i ^ 1), as structure of arrays. Node 2 s + r is root r
-/// of root square s. Knows nothing of views.
+/// What only splits and merges read of a node.
+struct Node {
+  TriangleId id;
+  uint32_t parent = k_none;
+  Cover cover = Cover::inside;
+};
+
+/// Topology of the bintree: nodes in pairs (siblings are i and i ^ 1). Node 2 s + r is root r of root square s. Knows
+/// nothing of views.
 class RoamTree {
  public:
   explicit RoamTree(const Surface& surface);
@@ -115,7 +126,7 @@ class RoamTree {
   const Surface& surface() const { return *surface_; }
   const Lattice& lattice() const { return lattice_; }
   uint32_t root_count() const { return root_count_; }
-  size_t size() const { return id.size(); }
+  size_t size() const { return nodes.size(); }
   uint32_t leaf_count() const { return leaf_count_; }
 
   bool is_alive(uint32_t node) const { return child[node] != k_dead; }
@@ -123,7 +134,8 @@ class RoamTree {
   bool is_split(uint32_t node) const { return child[node] < k_dead; }
   /// Whether the surface lets the leaf be split.
   bool splittable(uint32_t leaf) const {
-    return id[leaf].level() < lattice_.max_level && surface_->can_split(centre_of(corners(leaf)), id[leaf].level());
+    return nodes[leaf].id.level() < lattice_.max_level &&
+           surface_->can_split(centre_of(corners(leaf)), nodes[leaf].id.level());
   }
   /// Takes the bound of a node anew.
   void reread(uint32_t node);
@@ -140,12 +152,10 @@ class RoamTree {
   /// The half of the node's diamond that stands for it: the lower index.
   uint32_t diamond_of(uint32_t node) const { return std::min(node, neighbour[node].base); }
 
-  std::vector<TriangleId> id;
+  std::vector<Node> nodes;
   std::vector<Corners> corner;
   std::vector<Neighbours> neighbour;
-  std::vector<uint32_t> parent;
   std::vector<uint32_t> child;  // first of the two; k_none: leaf; k_dead: unused
-  std::vector<Cover> cover;
   VertexPool vertices;
 
  private:

@@ -41,28 +41,29 @@ class Validator {
   }
 
   void check_identity(uint32_t node) {
-    const TriangleCorners expected = corners_of(t_.id[node]), actual = t_.corners(node);
+    const TriangleCorners expected = corners_of(t_.nodes[node].id), actual = t_.corners(node);
     require(expected.apex == actual.apex && expected.left == actual.left && expected.right == actual.right, node,
             "corners differ from those of its id");
     for (const uint32_t slot : {t_.corner[node].apex, t_.corner[node].left, t_.corner[node].right}) {
       require(t_.vertices.alive[slot], node, "uses a dead vertex");
       const glm::dvec3 world(t_.lattice().world_xy(t_.vertices.lattice[slot]),
                              t_.surface().height(t_.vertices.lattice[slot]));
-      require(world == t_.vertices.world[slot], node, "has a vertex off the height field");
+      require(world == t_.vertices.points[slot].world, node, "has a vertex off the height field");
     }
-    const uint32_t parent = t_.parent[node];
+    const uint32_t parent = t_.nodes[node].parent;
     if (parent == k_none) {
       require(node < t_.root_count(), node, "has no parent and is no root");
       return;
     }
     require(t_.is_split(parent) && (t_.child[parent] | 1) == (node | 1), node, "is unknown to its parent");
-    require(t_.id[node] == t_.id[parent].child(int(node & 1)), node, "has an id that does not follow its parent's");
+    require(t_.nodes[node].id == t_.nodes[parent].id.child(int(node & 1)), node,
+            "has an id that does not follow its parent's");
   }
 
   // Deferred findings are derived again for the present view: none may be wrong by now.
   void check_view(uint32_t node) {
     const NodeState& s = e_.state_[node];
-    const uint32_t parent = t_.parent[node];
+    const uint32_t parent = t_.nodes[node].parent, due = e_.wedgie_[node].due;
     const bool below_out = parent != k_none && !e_.is_visible(parent);
     if (e_.options_.plain) {
       const Assessment now = e_.assess(node, e_.inherited_flags(node));
@@ -73,12 +74,15 @@ class Validator {
     if (!e_.view_) return;
     if (below_out) {
       require(!e_.is_visible(node), node, "is visible below what is out");
-      return require(s.due == 0, node, "is watched below what is out");
+      return require(due == 0, node, "is watched below what is out");
     }
     const bool padding = t_.corner[node].bound < 0;
     if (!e_.is_visible(node)) {
       require(padding || e_.read(node).out(), node, "is taken to be out and is not");
-      require(padding || s.due != 0, node, "is out and nobody watches");
+      require(padding || due & k_watch, node, "is out and nobody watches");
+    } else {
+      require(!(due & k_watch), node, "is visible and watched");
+      require(due == 0 || e_.acts_as_leaf(node), node, "is entered as the leaf that it is not");
     }
     if (s.cull & k_falling) {
       const bool moves = t_.is_split(node) && e_.centre_moves(node);
@@ -123,7 +127,7 @@ class Validator {
       return;
     }
     require(!e_.options_.plain, node, "is visible, not queued");
-    require(s.due != 0, node, "is neither queued nor entered in a calendar");
+    require(e_.wedgie_[node].due != 0, node, "is neither queued nor entered in a calendar");
     require(priority <= e_.leaf_guard_ * k_rounding, node, "has risen above the guard unseen");
   }
 
@@ -175,16 +179,19 @@ class Validator {
     require(candidate || !s.half_queued, node, "is queued and cannot be merged");
     if (!candidate) return;
     float key = -1;
-    for (const uint32_t half : {node, base})
-      if (half != k_none && e_.is_visible(half))
-        key = std::max(key, e_.options_.plain ? e_.state_[half].priority : e_.read(half).priority);
+    bool lingers = false;
+    for (const uint32_t half : {node, base}) {
+      if (half == k_none || !e_.is_visible(half)) continue;
+      key = std::max(key, e_.options_.plain ? e_.state_[half].priority : e_.read(half).priority);
+      lingers |= !e_.options_.plain && e_.read(half).out();
+    }
     if (s.half_queued) {
       ++mergeable_;
       return check_queued(node, key);
     }
     require(!e_.options_.plain, node, "is mergeable, not queued");
-    require(s.diamond_due != 0, node, "is neither queued nor entered in a calendar");
-    require(key * k_rounding >= e_.diamond_guard_, node, "has fallen below the guard unseen");
+    require(e_.wedgie_[node].diamond_due != 0, node, "is neither queued nor entered in a calendar");
+    require(lingers || key * k_rounding >= e_.diamond_guard_, node, "has fallen below the guard unseen");
   }
 
   void check_queued(uint32_t node, float key) {
