@@ -97,7 +97,7 @@ Expected<RoamStats> RoamEngine::update(const View& view, std::optional<double> t
   draws_.close();
   stats_.visible = visible_count();
   stats_.leaves = tree_.leaf_count();
-  stats_.moving = moving_count();
+  stats_.moving = tree_.vertices.moving;
   return stats_;
 }
 

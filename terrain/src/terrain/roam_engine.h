@@ -73,7 +73,17 @@ class RoamEngine {
     seen.view = view_number_;
     return forms;
   }
-  Reading read(uint32_t node) const { return projection_.read(wedgie_[node]); }
+  /// Up to four nodes side by side.
+  void read(std::span<const uint32_t> nodes, Projection::Wanted wanted, Reading* readings) const {
+    const Wedgie* wedgies[Projection::k_together] = {};
+    for (size_t i = 0; i < nodes.size(); ++i) wedgies[i] = &wedgie_[nodes[i]];
+    projection_.read({wedgies, nodes.size()}, {units_, leaf_guard_, diamond_guard_}, wanted, readings);
+  }
+  Reading read(uint32_t node) const {
+    Reading reading;
+    read({&node, 1}, Projection::k_all, &reading);
+    return reading;
+  }
   Assessment assess(uint32_t node, CullFlags inherited) const;
   CullFlags inherited_flags(uint32_t node) const;
 
@@ -85,10 +95,13 @@ class RoamEngine {
   void start_over();
   void look_at_all();
   void look(uint32_t node, CullFlags inherited);
+  void take_reading(uint32_t node, const Reading& reading);
   void look_plainly(uint32_t node, CullFlags inherited);
   void look_at_due();
-  void look_at_out(uint32_t node);
-  void look_at_leaf(uint32_t node);
+  void look_at_out(uint32_t node, const Reading& reading);
+  void look_at_leaf(uint32_t node, const Reading& reading);
+  template <typename Current, typename Look>
+  void look_together(const std::vector<Calendar::Entry>& due, Projection::Wanted wanted, Current current, Look look);
   void look_at_outs();
   void look_at_leaves();
   void look_at_diamonds();
@@ -115,11 +128,18 @@ class RoamEngine {
   void mark_out(uint32_t node);
   void watch_out(uint32_t node, const Reading& reading);
   void go_out(uint32_t node, const Reading& reading);
-  void come_in(uint32_t node, const Reading& reading);
+  void come_in(uint32_t node);
   void refresh_diamond(uint32_t node);
   void place_diamond(uint32_t diamond);
   float plain_key(uint32_t diamond) const;
+  struct Halves {
+    std::array<uint32_t, 2> node;
+    size_t count = 0;
+  };
+  Halves halves_in_sight(uint32_t diamond) const;
   std::optional<float> defer_diamond(uint32_t diamond);
+  std::optional<float> defer_diamond(uint32_t diamond, std::span<const Reading> halves);
+  void queue_diamond(uint32_t diamond, float key);
   void unqueue_diamond(uint32_t diamond);
   void forget_diamond(uint32_t node);
   void mark_halves(uint32_t node, bool queued);
@@ -130,6 +150,7 @@ class RoamEngine {
   // Adapting: roam_refine.cpp.
   enum class Room { enough, full, later };
   void split_one(uint32_t node);
+  void take_children(std::span<const uint32_t, 2> halves);
   uint32_t split_chain(const Chain& chain);
   void merge_now(uint32_t node);
   bool converge();
@@ -146,7 +167,7 @@ class RoamEngine {
   uint32_t decision_budget() const;
   int64_t decided_count() const { return int64_t(visible_count()) - falling_surplus_; }
   Ghost ghost(uint32_t node) const;
-  CullFlags sees(const Ghost& ghost, float bound, CullFlags inherited) const;
+  void see(std::span<Ghost> children) const;
   Ghost ghost_child(const Ghost& of, int turn, glm::dvec3 middle) const;
 
   // Morph: roam_morph.cpp.
@@ -219,9 +240,10 @@ class RoamEngine {
   struct Motion {
     uint32_t node;  // half of the diamond whose centre moves
     uint32_t vertex;
+    double arrives;  // not before this time
+    bool falls;      // or did once
   };
   bool lasts(const Motion& motion) const;
-  uint32_t moving_count() const;
   std::vector<Motion> motions_;
   int64_t falling_surplus_ = 0;  // drawn triangles that are gone once all falls have ended
 

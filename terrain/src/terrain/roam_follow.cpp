@@ -165,21 +165,29 @@ void RoamEngine::prefetch_nodes(size_t place) const {
 
 void RoamEngine::look(uint32_t node, CullFlags inherited) {
   if (options_.plain) return look_plainly(node, inherited);
-  ++stats_.looked_at;
   if (inherited & k_out) {
+    ++stats_.looked_at;
     mark_out(node);
-  } else if (const Reading reading = read(node); reading.out()) {
-    mark_out(node);
-    watch_out(node, reading);
   } else {
-    NodeState& s = state_[node];
-    s.cull = CullFlags(s.cull & k_falling);
-    wedgie_[node].due = 0;
-    if (tree_.is_leaf(node)) show(node);
-    if (acts_as_leaf(node)) place(node, reading);
+    take_reading(node, read(node));
   }
   // The other half may still have the last view's flags; its own visit then places the diamond again.
   if (tree_.is_split(node)) refresh_diamond(node);
+}
+
+// Of a node of which nothing is known yet for this view.
+void RoamEngine::take_reading(uint32_t node, const Reading& reading) {
+  ++stats_.looked_at;
+  if (reading.out()) {
+    mark_out(node);
+    watch_out(node, reading);
+    return;
+  }
+  NodeState& s = state_[node];
+  s.cull = CullFlags(s.cull & k_falling);
+  wedgie_[node].due = 0;
+  if (tree_.is_leaf(node)) show(node);
+  if (acts_as_leaf(node)) place(node, reading);
 }
 
 void RoamEngine::look_plainly(uint32_t node, CullFlags inherited) {
@@ -260,20 +268,18 @@ void RoamEngine::prefetch_bases(size_t place) const {
 }
 
 // The topmost node of what is out.
-void RoamEngine::look_at_out(uint32_t node) {
+void RoamEngine::look_at_out(uint32_t node, const Reading& reading) {
   ++stats_.looked_at;
-  const Reading reading = read(node);
   if (reading.out()) {
     watch_out(node, reading);
   } else {
-    come_in(node, reading);
+    come_in(node);
   }
 }
 
 // A visible node that acts as a leaf.
-void RoamEngine::look_at_leaf(uint32_t node) {
+void RoamEngine::look_at_leaf(uint32_t node, const Reading& reading) {
   ++stats_.looked_at;
-  const Reading reading = read(node);
   if (reading.out() && tree_.is_leaf(node)) {
     go_out(node, reading);
   } else {
@@ -281,37 +287,74 @@ void RoamEngine::look_at_leaf(uint32_t node) {
   }
 }
 
+// Those nodes whose entries are current, four at a time. An entry may cease to be so when its neighbours are looked at.
+template <typename Current, typename Look>
+void RoamEngine::look_together(const std::vector<Calendar::Entry>& due, Projection::Wanted wanted, Current current,
+                               Look look) {
+  std::array<uint32_t, Projection::k_together> nodes, ticks;
+  std::array<Reading, Projection::k_together> readings;
+  size_t count = 0;
+  for (size_t i = 0; i < due.size(); ++i) {
+    prefetch_due(due, i);
+    if (current(due[i].node, due[i].tick)) {
+      nodes[count] = due[i].node;
+      ticks[count++] = due[i].tick;
+    }
+    if (count == 0 || (count < nodes.size() && i + 1 < due.size())) continue;
+    read({nodes.data(), count}, wanted, readings.data());
+    for (size_t k = 0; k < count; ++k)
+      if (current(nodes[k], ticks[k])) look(nodes[k], readings[k]);
+    count = 0;
+  }
+}
+
 void RoamEngine::look_at_outs() {
   out_calendar_.take_due(due_outs_);
-  for (size_t i = 0; i < due_outs_.size(); ++i) {
-    prefetch_due(due_outs_, i);
-    const auto [node, tick] = due_outs_[i];
-    if (node < wedgie_.size() && wedgie_[node].due == (tick | k_watch)) look_at_out(node);
-  }
+  look_together(
+      due_outs_, Projection::k_outside,
+      [this](uint32_t node, uint32_t tick) { return node < wedgie_.size() && wedgie_[node].due == (tick | k_watch); },
+      [this](uint32_t node, const Reading& reading) { look_at_out(node, reading); });
   due_outs_.clear();
 }
 
 void RoamEngine::look_at_leaves() {
   leaf_calendar_.take_due(due_leaves_);
-  for (size_t i = 0; i < due_leaves_.size(); ++i) {
-    prefetch_due(due_leaves_, i);
-    const auto [node, tick] = due_leaves_[i];
-    if (node < wedgie_.size() && wedgie_[node].due == tick) look_at_leaf(node);
-  }
+  look_together(
+      due_leaves_, Projection::k_below,
+      [this](uint32_t node, uint32_t tick) { return node < wedgie_.size() && wedgie_[node].due == tick; },
+      [this](uint32_t node, const Reading& reading) { look_at_leaf(node, reading); });
   due_leaves_.clear();
 }
 
+// The halves of some diamonds at once. An entry is void as soon as the diamond cannot be merged.
 void RoamEngine::look_at_diamonds() {
   diamond_calendar_.take_due(due_diamonds_);
+  std::array<uint32_t, Projection::k_together> halves, diamonds, begins;
+  std::array<Reading, Projection::k_together> readings;
+  size_t half_count = 0, count = 0;
+  const auto flush = [&] {
+    if (half_count > 0) read({halves.data(), half_count}, Projection::k_above, readings.data());
+    for (size_t k = 0; k < count; ++k) {
+      const size_t end = k + 1 < count ? begins[k + 1] : half_count;
+      const auto key = defer_diamond(diamonds[k], {readings.data() + begins[k], end - begins[k]});
+      if (key) queue_diamond(diamonds[k], *key);
+    }
+    half_count = count = 0;
+  };
   for (size_t i = 0; i < due_diamonds_.size(); ++i) {
     prefetch_due(due_diamonds_, i);
     prefetch_bases(i);
     const auto [node, tick] = due_diamonds_[i];
     if (node >= wedgie_.size() || wedgie_[node].diamond_due != tick) continue;
+    wedgie_[node].diamond_due = 0;
     stats_.looked_at += 2;
-    // An entry is void as soon as the diamond cannot be merged.
-    place_diamond(node);
+    const Halves in_sight = halves_in_sight(node);
+    if (half_count + in_sight.count > halves.size() || count == diamonds.size()) flush();
+    diamonds[count] = node;
+    begins[count++] = uint32_t(half_count);
+    for (size_t k = 0; k < in_sight.count; ++k) halves[half_count++] = in_sight.node[k];
   }
+  flush();
   due_diamonds_.clear();
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstring>
 
 namespace sward::roam {
@@ -9,11 +10,21 @@ namespace sward::roam {
 /// Four floats that are added, multiplied and compared side by side: GCC's and Clang's vector extension.
 using Lanes = float __attribute__((vector_size(16)));
 
+inline Lanes all(float value) {
+  return Lanes{value, value, value, value};
+}
 inline Lanes larger(Lanes a, Lanes b) {
   return a > b ? a : b;
 }
 inline Lanes smaller(Lanes a, Lanes b) {
   return a < b ? a : b;
+}
+
+inline Lanes magnitude(Lanes a) {
+  return a < 0.0f ? -a : a;
+}
+inline Lanes root(Lanes a) {
+  return Lanes{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
 }
 
 /// What a view makes of one vertex: values of linear forms.

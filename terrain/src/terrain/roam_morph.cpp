@@ -39,7 +39,7 @@ void RoamEngine::rise(uint32_t node, double from_z) {
   const auto seconds = float(std::min(double(options_.morph_s), seconds_left()));
   if (double(seconds) < k_least_seconds) return refresh_diamond(node);
   tree_.vertices.begin_motion(vertex, from_z, tree_.vertices.points[vertex].world.z, seconds);
-  motions_.push_back({node, vertex});
+  motions_.push_back({node, vertex, tree_.vertices.arrival(vertex), false});
 }
 
 // Falls that follow one another, finer diamonds before coarser ones, must end in time: each takes half of what is left.
@@ -53,7 +53,7 @@ void RoamEngine::fall(uint32_t node) {
   falling_surplus_ += merge_gain(node);
   v.begin_motion(vertex, v.points[vertex].world.z, 0.5 * (v.points[c.left].world.z + v.points[c.right].world.z),
                  seconds);
-  motions_.push_back({node, vertex});
+  motions_.push_back({node, vertex, v.arrival(vertex), true});
   for (const uint32_t half : {node, tree_.neighbour[node].base}) {
     if (half == k_none) continue;
     state_[half].cull |= k_falling;
@@ -78,9 +78,10 @@ void RoamEngine::stop_fall(uint32_t node) {
       if (is_visible(child)) place(child, read(child));
     }
   }
-  // Its entry in motions_ stays.
+  // Its entry in motions_ is void.
   const double seconds = std::max(std::min(double(options_.morph_s), seconds_left()), k_least_seconds);
   v.begin_motion(vertex, v.drawn_z(vertex), v.points[vertex].world.z, float(seconds));
+  motions_.push_back({node, vertex, v.arrival(vertex), false});
 }
 
 // False when the diamond is gone or its centre rests.
@@ -90,20 +91,16 @@ bool RoamEngine::lasts(const Motion& motion) const {
          tree_.corner[tree_.child[motion.node]].apex == motion.vertex;
 }
 
-uint32_t RoamEngine::moving_count() const {
-  return uint32_t(std::ranges::count_if(motions_, [this](const Motion& motion) { return lasts(motion); }));
-}
-
 // Motions that are over, or whose diamond is gone.
 void RoamEngine::finish_motions() {
   VertexPool& v = tree_.vertices;
   for (size_t i = 0; i < motions_.size();) {
-    const Motion motion = motions_[i];
-    const bool lives = lasts(motion);
-    if (lives && !v.arrived(motion.vertex) && morphs()) {
+    if (v.now < motions_[i].arrives && morphs()) {
       ++i;
       continue;
     }
+    const Motion motion = motions_[i];
+    const bool lives = lasts(motion) && (v.arrival(motion.vertex) == motion.arrives || !morphs());
     motions_[i] = motions_.back();
     motions_.pop_back();
     if (!lives) continue;
@@ -153,7 +150,8 @@ void RoamEngine::finish_motions_now() {
 void RoamEngine::count_falling_surplus() {
   falling_surplus_ = 0;
   for (const Motion& motion : motions_)
-    if (tree_.is_split(motion.node) && (state_[motion.node].cull & k_falling))
+    if (motion.falls && lasts(motion) && (state_[motion.node].cull & k_falling) &&
+        tree_.vertices.arrival(motion.vertex) == motion.arrives)
       falling_surplus_ += merge_gain(motion.node);
 }
 

@@ -9,12 +9,7 @@
 
 namespace sward::roam {
 
-namespace {
-
-// A diamond with a half that is above the guard for so many ticks need not look at the other one.
-constexpr float k_long_enough = 64;
-
-}  // namespace
+namespace {}  // namespace
 
 Assessment RoamEngine::assess(uint32_t node, CullFlags inherited) const {
   const Corners& c = tree_.corner[node];
@@ -66,10 +61,9 @@ void RoamEngine::note_lingering(uint32_t node) {
 // `ticks`, cut to the time at which a visible node is going to be out of sight if the view goes on moving as it does.
 // It may be out before that: such nodes are noted. They cost some of the budget and nothing else.
 float RoamEngine::until_side_changes(uint32_t node, const Reading& reading, float ticks) {
-  const float side_ticks = projection_.side_ticks(reading, units_);
-  if (side_ticks >= ticks) return ticks;
-  const float leaves = std::clamp(projection_.ticks_to_leave(reading), k_least_patience, k_most_patience);
-  if (side_ticks >= leaves) return side_ticks;
+  if (reading.side >= ticks) return ticks;
+  const float leaves = std::clamp(reading.leaves, k_least_patience, k_most_patience);
+  if (reading.side >= leaves) return reading.side;
   note_lingering(node);
   return std::min(ticks, leaves);
 }
@@ -78,7 +72,7 @@ float RoamEngine::until_side_changes(uint32_t node, const Reading& reading, floa
 void RoamEngine::place(uint32_t node, const Reading& reading) {
   if (!options_.plain) {
     Wedgie& w = wedgie_[node];
-    float ticks = projection_.below_ticks(reading, leaf_guard_, units_);
+    float ticks = reading.below;
     if (ticks > 0) ticks = until_side_changes(node, reading, ticks);
     if (const uint32_t tick = leaf_calendar_.tick_after(ticks); tick != 0) {
       // What is in the calendar is not queued.
@@ -127,7 +121,7 @@ void RoamEngine::watch_out(uint32_t node, const Reading& reading) {
   Wedgie& w = wedgie_[node];
   w.due = 0;
   if (w.bound < 0) return;
-  if (const uint32_t tick = out_calendar_.tick_after(projection_.side_ticks(reading, units_)); tick != 0) {
+  if (const uint32_t tick = out_calendar_.tick_after(reading.side); tick != 0) {
     w.due = tick | k_watch;
     out_calendar_.enter(node, tick);
   } else {
@@ -152,25 +146,20 @@ void RoamEngine::go_out(uint32_t node, const Reading& reading) {
 }
 
 // A node that was out and is so no more, with what of its sub-tree has come in, too.
-void RoamEngine::come_in(uint32_t node, const Reading& reading) {
+void RoamEngine::come_in(uint32_t node) {
   NodeState& s = state_[node];
   s.cull = CullFlags(s.cull & k_falling);
   wedgie_[node].due = 0;
   if (tree_.is_leaf(node)) {
     show(node);
-    if (!in_falling(node)) place(node, reading);
+    if (!in_falling(node)) place(node, read(node));
     return;
   }
-  for (uint32_t child = tree_.child[node]; child <= tree_.child[node] + 1; ++child) {
-    const Reading of_child = read(child);
-    ++stats_.looked_at;
-    if (of_child.out()) {
-      watch_out(child, of_child);
-    } else {
-      come_in(child, of_child);
-    }
-  }
-  if (s.cull & k_falling) place(node, reading);
+  const uint32_t children[2] = {tree_.child[node], tree_.child[node] + 1};
+  Reading readings[2];
+  read(children, Projection::k_outside, readings);
+  for (int turn = 0; turn < 2; ++turn) look_at_out(children[turn], readings[turn]);
+  if (s.cull & k_falling) place(node, read(node));
   refresh_diamond(node);
 }
 
@@ -181,10 +170,13 @@ void RoamEngine::refresh_diamond(uint32_t node) {
 }
 
 void RoamEngine::place_diamond(uint32_t diamond) {
-  const std::optional<float> key = options_.plain ? plain_key(diamond) : defer_diamond(diamond);
-  if (!key) return;
-  if (state_[diamond].half_queued) return merge_queue_.change_key(state_, diamond, *key);
-  merge_queue_.insert(state_, diamond, *key);
+  if (const std::optional<float> key = options_.plain ? plain_key(diamond) : defer_diamond(diamond))
+    queue_diamond(diamond, *key);
+}
+
+void RoamEngine::queue_diamond(uint32_t diamond, float key) {
+  if (state_[diamond].half_queued) return merge_queue_.change_key(state_, diamond, key);
+  merge_queue_.insert(state_, diamond, key);
   mark_halves(diamond, true);
 }
 
@@ -195,22 +187,31 @@ float RoamEngine::plain_key(uint32_t diamond) const {
   return key;
 }
 
+RoamEngine::Halves RoamEngine::halves_in_sight(uint32_t diamond) const {
+  Halves halves;
+  for (const uint32_t half : {diamond, tree_.neighbour[diamond].base})
+    if (half != k_none && is_visible(half)) halves.node[halves.count++] = half;
+  return halves;
+}
+
+std::optional<float> RoamEngine::defer_diamond(uint32_t diamond) {
+  const Halves halves = halves_in_sight(diamond);
+  Reading readings[2];
+  if (halves.count > 0) read({halves.node.data(), halves.count}, Projection::k_above, readings);
+  return defer_diamond(diamond, {readings, halves.count});
+}
+
 // Enters a diamond that is above the guard in the calendar; otherwise returns its priority. That a half may leave the
 // view needs no looks: when its leaves have gone out, so does it.
-std::optional<float> RoamEngine::defer_diamond(uint32_t diamond) {
+std::optional<float> RoamEngine::defer_diamond(uint32_t diamond, std::span<const Reading> halves) {
   Wedgie& w = wedgie_[diamond];
   w.diamond_due = 0;
   float key = -1, ticks = 0;
-  bool in_sight = false;
-  for (const uint32_t half : {diamond, tree_.neighbour[diamond].base}) {
-    if (half == k_none || !is_visible(half)) continue;
-    in_sight = true;
-    const Reading reading = read(half);
-    key = std::max(key, reading.priority);
-    ticks = std::max(ticks, projection_.above_ticks(reading, diamond_guard_, units_));
-    if (ticks >= k_long_enough) break;
+  for (const Reading& half : halves) {
+    key = std::max(key, half.priority);
+    ticks = std::max(ticks, half.above);
   }
-  if (!in_sight) return key;
+  if (halves.empty()) return key;
   if (const uint32_t tick = diamond_calendar_.tick_after(ticks); tick != 0) {
     unqueue_diamond(diamond);
     w.diamond_due = tick;

@@ -62,6 +62,8 @@ Projection::Projection(const View& view) : eye_(view.eye) {
     form_z_.set(i, float(forms[size_t(i)].z));
     form_1_.set(i, float(forms[size_t(i)].w));
   }
+  for (size_t i = 0; i < Forms::k_forms; ++i)
+    form_[i] = {all(float(forms[i].x)), all(float(forms[i].y)), all(float(forms[i].z)), all(float(forms[i].w))};
   depth_per_metre_ = float(std::abs(to_w.z));
   x_axis_ = glm::vec3(forms[Forms::k_x]);
   y_axis_ = glm::vec3(forms[Forms::k_y]);
@@ -76,139 +78,229 @@ Projection::Projection(const View& view) : eye_(view.eye) {
   depth_rate_ = float(glm::length(glm::dvec3(to_w)));
 }
 
-Reading Projection::read(const Wedgie& wedgie) const {
-  Reading r;
-  if (wedgie.bound < 0) return r;
-  r.bound = wedgie.bound;
-  r.at[0] = glm::vec3(wedgie.apex - eye_);
-  r.at[1] = r.at[0] + wedgie.to_left;
-  r.at[2] = r.at[0] + wedgie.to_right;
-  for (int corner = 0; corner < 3; ++corner) r.form[corner] = project(r.at[corner]);
-  const auto& [a, b, c] = r.form;
-  const Lanes first = larger(a.lane[0], larger(b.lane[0], c.lane[0])) + r.bound * reach_.lane[0];
-  const Lanes second = larger(a.lane[1], larger(b.lane[1], c.lane[1])) + r.bound * reach_.lane[1];
-  r.farthest[0] = first;
-  r.farthest[1] = second;
-  r.outside =
-      std::min(std::min(std::min(first[0], first[1]), std::min(first[2], first[3])), std::min(second[0], second[1]));
-  r.near_inside = std::min(a.side(4), std::min(b.side(4), c.side(4))) - r.bound * reach_.side(4);
-  if (r.out()) return r;
-  const float nearest = std::min(a.w(), std::min(b.w(), c.w()));
-  r.priority = priority(thickness(a, b, c), nearest, r.bound, r.near_inside >= 0);
-  return r;
+// Four wedgies side by side: corners relative to the eye, what the view makes of them.
+struct Projection::Four {
+  Lanes px[3], py[3], pz[3];
+  Lanes bound;
+  Lanes farthest[Forms::k_sides], outside, near_inside;
+  Lanes x[3], y[3], w[3];
+  // The largest thickness squared, and the least w.
+  Lanes square, nearest;
+};
+
+Projection::Four Projection::place(std::span<const Wedgie* const> wedgies) const {
+  const size_t last = wedgies.size() - 1;
+  const Wedgie* const w[k_together] = {wedgies[0], wedgies[std::min<size_t>(1, last)],
+                                       wedgies[std::min<size_t>(2, last)], wedgies[std::min<size_t>(3, last)]};
+  const auto gather = [&](auto value) { return Lanes{value(*w[0]), value(*w[1]), value(*w[2]), value(*w[3])}; };
+  Four f;
+  f.px[0] = gather([&](const Wedgie& g) { return float(g.apex.x - eye_.x); });
+  f.py[0] = gather([&](const Wedgie& g) { return float(g.apex.y - eye_.y); });
+  f.pz[0] = gather([&](const Wedgie& g) { return float(g.apex.z - eye_.z); });
+  f.px[1] = f.px[0] + gather([](const Wedgie& g) { return g.to_left.x; });
+  f.py[1] = f.py[0] + gather([](const Wedgie& g) { return g.to_left.y; });
+  f.pz[1] = f.pz[0] + gather([](const Wedgie& g) { return g.to_left.z; });
+  f.px[2] = f.px[0] + gather([](const Wedgie& g) { return g.to_right.x; });
+  f.py[2] = f.py[0] + gather([](const Wedgie& g) { return g.to_right.y; });
+  f.pz[2] = f.pz[0] + gather([](const Wedgie& g) { return g.to_right.z; });
+  f.bound = gather([](const Wedgie& g) { return g.bound; });
+  return f;
+}
+
+void Projection::measure_sides(Four& f) const {
+  for (int i = 0; i < Forms::k_sides; ++i) {
+    const Form& form = form_[size_t(i)];
+    const Lanes a = form.at(f.px[0], f.py[0], f.pz[0]), b = form.at(f.px[1], f.py[1], f.pz[1]),
+                c = form.at(f.px[2], f.py[2], f.pz[2]);
+    const Lanes reach = f.bound * reach_.side(i);
+    f.farthest[i] = larger(a, larger(b, c)) + reach;
+    f.outside = i == 0 ? f.farthest[0] : smaller(f.outside, f.farthest[i]);
+    if (i == 4) f.near_inside = smaller(a, smaller(b, c)) - reach;
+  }
+  f.outside = f.bound < 0.0f ? all(-1) : f.outside;
+}
+
+std::array<bool, Projection::k_together> Projection::out(std::span<const Wedgie* const> wedgies) const {
+  Four f = place(wedgies);
+  measure_sides(f);
+  return {f.outside[0] < 0, f.outside[1] < 0, f.outside[2] < 0, f.outside[3] < 0};
+}
+
+Lanes Projection::priority(const Four& f) const {
+  const Lanes reach = f.bound * depth_per_metre_;
+  const Lanes denominator = (f.nearest - reach) * (f.nearest + reach);
+  const Lanes most = all(RoamMesh::k_artificial_max);
+  Lanes p = smaller(2 * f.bound * root(f.square) / denominator, most);
+  p = f.near_inside < 0.0f ? most : p;
+  p = f.nearest <= reach ? most : p;
+  p = denominator <= 0.0f ? most : p;
+  p = f.bound <= 0.0f ? all(0) : p;
+  return f.outside < 0.0f ? all(-1) : p;
 }
 
 void Projection::expect(const Projection& before, double ticks) {
   if (!(ticks > 0)) return;
   const glm::vec3 travel(eye_ - before.eye_);
-  const float per_tick = float(1 / ticks);
-  for (int i = 0; i < 2; ++i) {
-    rate_x_[i] = per_tick * (form_x_.lane[i] - before.form_x_.lane[i]);
-    rate_y_[i] = per_tick * (form_y_.lane[i] - before.form_y_.lane[i]);
-    rate_z_[i] = per_tick * (form_z_.lane[i] - before.form_z_.lane[i]);
+  const Lanes per_tick = all(float(1 / ticks));
+  for (size_t i = 0; i < Forms::k_sides; ++i) {
+    const Form &now = form_[i], &last = before.form_[i];
     // A point at p now was at p + travel, seen from the last eye.
-    rate_1_[i] = per_tick * (form_1_.lane[i] - before.form_1_.lane[i] - before.form_x_.lane[i] * travel.x -
-                             before.form_y_.lane[i] * travel.y - before.form_z_.lane[i] * travel.z);
+    rate_[i] = {per_tick * (now.x - last.x), per_tick * (now.y - last.y), per_tick * (now.z - last.z),
+                per_tick * (now.one - last.at(all(travel.x), all(travel.y), all(travel.z)))};
   }
 }
 
-float Projection::ticks_to_leave(const Reading& r) const {
-  const glm::vec3 p = (r.at[0] + r.at[1] + r.at[2]) / 3.0f;
-  float least = Calendar::k_span;
-  for (int i = 0; i < 2; ++i) {
-    const Lanes rate = rate_x_[i] * p.x + rate_y_[i] * p.y + rate_z_[i] * p.z + rate_1_[i];
-    for (int lane = 0; lane < (i == 0 ? 4 : 2); ++lane)
-      if (rate[lane] * least < -r.farthest[i][lane]) least = -r.farthest[i][lane] / rate[lane];
+Lanes Projection::ticks_to_leave(const Four& f) const {
+  const Lanes third = all(1 / 3.0f);
+  const Lanes x = third * (f.px[0] + f.px[1] + f.px[2]), y = third * (f.py[0] + f.py[1] + f.py[2]),
+              z = third * (f.pz[0] + f.pz[1] + f.pz[2]);
+  const Lanes never = all(float(Calendar::k_span));
+  Lanes least = never;
+  for (size_t i = 0; i < Forms::k_sides; ++i) {
+    const Lanes rate = rate_[i].at(x, y, z);
+    least = smaller(least, rate < 0.0f ? f.farthest[i] / -rate : never);
   }
-  return least;
+  return larger(least, all(0));
 }
 
-// What a tick may change a wedgie's priority by: L and Q upwards and downwards, and the ticks for which they hold.
+// What a tick may change the wedgies' priorities by: L and Q upwards and downwards, and the ticks for which they hold.
 struct Projection::Change {
-  float linear_up = 0, linear_down = 0, square_up = 0, square_down = 0, valid = 0;
-  float range = 0;  // of the farthest corner, metres
+  Lanes linear_up, linear_down, square_up, square_down, valid;
+  Lanes range;  // of the farthest corner, metres
 };
 
-float Projection::side_ticks(const Reading& r, const TickUnits& units) const {
-  const glm::vec3 &p = r.at[0], &q = r.at[1], &t = r.at[2];
-  const float range = std::sqrt(std::max(glm::dot(p, p), std::max(glm::dot(q, q), glm::dot(t, t)))) + r.bound;
-  const float slack = std::abs(r.outside);
-  return slack / (units.metres + units.radians * (range + slack));
+namespace {
+
+Lanes length_of(Lanes x, Lanes y, Lanes z) {
+  return root(x * x + y * y + z * z);
 }
 
-Projection::Change Projection::change_of(const Reading& r, const TickUnits& units) const {
-  int a = 0, b = 0;
-  float x[3], y[3], square[3], range2 = 0;
-  const glm::vec3* p = r.at;
-  for (int i = 0; i < 3; ++i) {
-    x[i] = r.form[i].x();
-    y[i] = r.form[i].y();
-    square[i] = x[i] * x[i] + y[i] * y[i];
-    range2 = std::max(range2, glm::dot(p[i], p[i]));
-    if (square[i] > square[a]) a = i;
-    if (r.form[i].w() < r.form[b].w()) b = i;
+}  // namespace
+
+Projection::Change Projection::change_of(const Four& f, const TickUnits& units) const {
+  // a: the corner of the largest thickness, b: that of the least depth.
+  Lanes most = f.x[0] * f.x[0] + f.y[0] * f.y[0], xa = f.x[0], ya = f.y[0], pxa = f.px[0], pya = f.py[0];
+  Lanes w = f.w[0], pxb = f.px[0], pyb = f.py[0], pzb = f.pz[0];
+  Lanes range2 = f.px[0] * f.px[0] + f.py[0] * f.py[0] + f.pz[0] * f.pz[0];
+  for (int i = 1; i < 3; ++i) {
+    const Lanes square = f.x[i] * f.x[i] + f.y[i] * f.y[i];
+    const auto thicker = square > most;
+    most = thicker ? square : most;
+    xa = thicker ? f.x[i] : xa;
+    ya = thicker ? f.y[i] : ya;
+    pxa = thicker ? f.px[i] : pxa;
+    pya = thicker ? f.py[i] : pya;
+    const auto nearer = f.w[i] < w;
+    w = nearer ? f.w[i] : w;
+    pxb = nearer ? f.px[i] : pxb;
+    pyb = nearer ? f.py[i] : pyb;
+    pzb = nearer ? f.pz[i] : pzb;
+    range2 = larger(range2, f.px[i] * f.px[i] + f.py[i] * f.py[i] + f.pz[i] * f.pz[i]);
   }
-  const float n = std::sqrt(square[a]), inverse = 1 / n, w = r.form[b].w();
-  const float reach = r.bound * depth_per_metre_;
-  const float margin = w - reach, per_depth = 2 * w / (margin * (w + reach));
-  const float ux = x[a] * inverse, uy = y[a] * inverse;
-  // Vertical x P.
-  const glm::vec3 arm(-p[a].y, p[a].x, 0);
-  const glm::vec3 travel = inverse * (ux * x_axis_ + uy * y_axis_) - per_depth * w_axis_;
-  const glm::vec3 turn =
-      inverse * (ux * glm::cross(x_turn_, arm) + uy * glm::cross(y_turn_, arm)) - per_depth * glm::cross(w_axis_, p[b]);
-  const float range = std::sqrt(range2) + r.bound, side = glm::length(p[1] - p[2]);
-  const float metres = units.metres + units.radians * range;
-  const float more = 0.5f * range * units.radians * units.radians + units.metres * units.radians;
-  const float k = (thickness_per_metre_ * metres + thickness_per_radian_ * units.radians) * inverse;
-  const float h = depth_rate_ * metres / margin;
-  float spread = 0;
+  const Lanes inverse = 1 / root(most), reach = f.bound * depth_per_metre_;
+  const Lanes margin = w - reach, per_depth = 2 * w / (margin * (w + reach));
+  const Lanes ux = xa * inverse, uy = ya * inverse;
+  const glm::vec3 &wa = w_axis_, &xt = x_turn_, &yt = y_turn_;
+  const Lanes travel = length_of(inverse * (ux * x_axis_.x + uy * y_axis_.x) - per_depth * wa.x,
+                                 inverse * (ux * x_axis_.y + uy * y_axis_.y) - per_depth * wa.y,
+                                 inverse * (ux * x_axis_.z + uy * y_axis_.z) - per_depth * wa.z);
+  // The axis of turning, crossed with vertical x P = (-y, x, 0).
+  const Lanes ax = inverse * (ux * xt.x + uy * yt.x), ay = inverse * (ux * xt.y + uy * yt.y),
+              az = inverse * (ux * xt.z + uy * yt.z);
+  const Lanes turn =
+      length_of(-az * pxa - per_depth * (wa.y * pzb - wa.z * pyb), -az * pya - per_depth * (wa.z * pxb - wa.x * pzb),
+                ax * pxa + ay * pya - per_depth * (wa.x * pyb - wa.y * pxb));
+  Lanes spread = all(0);
   for (int i = 0; i < 3; ++i) {
-    const float dx = x[i] - x[a], dy = y[i] - y[a];
-    spread = std::max(spread, dx * dx + dy * dy);
+    const Lanes dx = f.x[i] - xa, dy = f.y[i] - ya;
+    spread = larger(spread, dx * dx + dy * dy);
   }
-  spread = 2 * std::sqrt(spread) * inverse;
+  spread = 2 * root(spread) * inverse;
+  const Lanes side = length_of(f.px[1] - f.px[2], f.py[1] - f.py[2], f.pz[1] - f.pz[2]);
   Change c;
-  c.linear_down = glm::length(travel) * units.metres + glm::length(turn) * units.radians +
-                  thickness_per_radian_ * inverse * units.radians +
-                  2 * reach * r.bound * depth_rate_ * units.radians / (margin * (w + reach));
-  c.linear_up =
-      c.linear_down + spread * k + side * units.radians * (thickness_per_metre_ * inverse + 2 * depth_rate_ / margin);
-  const float reach_turn = r.bound * depth_rate_ * units.radians / margin;
-  const float curved =
-      thickness_per_metre_ * more * inverse + 2 * depth_rate_ * more / margin + 2 * reach_turn * reach_turn;
+  c.range = root(range2) + f.bound;
+  const Lanes metres = units.metres + units.radians * c.range;
+  const Lanes more = 0.5f * units.radians * units.radians * c.range + units.metres * units.radians;
+  const Lanes k = (thickness_per_metre_ * metres + thickness_per_radian_ * units.radians) * inverse;
+  const Lanes per_margin = 1 / margin, h = depth_rate_ * metres * per_margin;
+  const Lanes reach_turn = f.bound * (depth_rate_ * units.radians) * per_margin;
+  c.linear_down = travel * units.metres + turn * units.radians + thickness_per_radian_ * units.radians * inverse +
+                  2 * reach * reach_turn / (w + reach);
+  c.linear_up = c.linear_down + spread * k +
+                units.radians * side * (thickness_per_metre_ * inverse + 2 * depth_rate_ * per_margin);
+  const Lanes curved =
+      thickness_per_metre_ * more * inverse + 2 * depth_rate_ * more * per_margin + 2 * reach_turn * reach_turn;
   c.square_up = 0.5f * k * k + 2 * h * h + curved;
   c.square_down = k * k + curved;
-  c.valid = 0.5f / std::max(k, h);
-  c.range = range;
+  c.valid = 0.5f / larger(k, h);
   return c;
 }
 
 namespace {
 
 // The n > 0 at which l n + q n^2 = limit.
-float solve(float l, float q, float limit) {
-  return 2 * limit / (l + std::sqrt(l * l + 4 * q * limit));
+Lanes solve(Lanes l, Lanes q, Lanes limit) {
+  return 2 * limit / (l + root(l * l + 4 * q * limit));
+}
+
+// No more than the logarithm of a ratio >= 1: the first term of its series about 1.
+Lanes least_log(Lanes ratio) {
+  return 2 * (ratio - 1) / (ratio + 1);
 }
 
 }  // namespace
 
-float Projection::below_ticks(const Reading& r, float guard, const TickUnits& units) const {
-  if (r.priority * k_rounding > guard) return 0;
-  if (r.bound <= 0) return float(Calendar::k_span);
-  if (!(r.priority > 0) || r.near_inside <= 0) return 0;
-  const Change c = change_of(r, units);
-  const float limit = std::log(guard / (r.priority * k_rounding));
-  const float near_ticks = r.near_inside / (units.metres + units.radians * (c.range + r.near_inside));
-  return std::min(std::min(solve(c.linear_up, c.square_up, limit), limit / units.log_guard),
-                  std::min(c.valid, near_ticks));
+Lanes Projection::below_ticks(const Four& f, const Change& c, Lanes p, const Deferral& deferral) const {
+  const TickUnits& units = deferral.units;
+  const Lanes zero = all(0), rounded = p * k_rounding, rise = least_log(deferral.leaf_guard / rounded);
+  const Lanes near_ticks = f.near_inside / (units.metres + units.radians * (c.range + f.near_inside));
+  Lanes ticks =
+      smaller(smaller(solve(c.linear_up, c.square_up, rise), rise / units.log_guard), smaller(c.valid, near_ticks));
+  ticks = f.near_inside > 0.0f ? ticks : zero;
+  ticks = p > 0.0f ? ticks : zero;
+  ticks = f.bound <= 0.0f ? all(float(Calendar::k_span)) : ticks;
+  return rounded <= deferral.leaf_guard ? ticks : zero;
 }
 
-float Projection::above_ticks(const Reading& r, float guard, const TickUnits& units) const {
-  if (r.priority <= guard * k_rounding || r.priority >= RoamMesh::k_artificial_max) return 0;
-  const Change c = change_of(r, units);
-  const float limit = std::log(r.priority / (guard * k_rounding));
-  return std::min(std::min(solve(c.linear_down, c.square_down, limit), limit / units.log_guard), c.valid);
+Lanes Projection::above_ticks(const Change& c, Lanes p, const Deferral& deferral) const {
+  const float reached = deferral.diamond_guard * k_rounding;
+  const Lanes zero = all(0), fall = least_log(p / reached);
+  Lanes ticks = smaller(smaller(solve(c.linear_down, c.square_down, fall), fall / deferral.units.log_guard), c.valid);
+  ticks = p > reached ? ticks : zero;
+  return p < RoamMesh::k_artificial_max ? ticks : zero;
+}
+
+void Projection::read(std::span<const Wedgie* const> wedgies, const Deferral& deferral, Wanted wanted,
+                      Reading* readings) const {
+  Four f = place(wedgies);
+  measure_sides(f);
+  Lanes p = f.outside < 0.0f ? all(-1) : all(0);
+  Lanes below = all(0), above = all(0), leaves = all(0), range;
+  if (wanted != k_outside) {
+    for (int i = 0; i < 3; ++i) {
+      f.x[i] = form_[Forms::k_x].at(f.px[i], f.py[i], f.pz[i]);
+      f.y[i] = form_[Forms::k_y].at(f.px[i], f.py[i], f.pz[i]);
+      f.w[i] = form_[Forms::k_w].at(f.px[i], f.py[i], f.pz[i]);
+    }
+    f.square = larger(f.x[0] * f.x[0] + f.y[0] * f.y[0],
+                      larger(f.x[1] * f.x[1] + f.y[1] * f.y[1], f.x[2] * f.x[2] + f.y[2] * f.y[2]));
+    f.nearest = smaller(f.w[0], smaller(f.w[1], f.w[2]));
+    p = priority(f);
+    const Change c = change_of(f, deferral.units);
+    range = c.range;
+    if (wanted & k_below) {
+      below = below_ticks(f, c, p, deferral);
+      leaves = ticks_to_leave(f);
+    }
+    if (wanted & k_above) above = above_ticks(c, p, deferral);
+  } else {
+    const auto square = [&](int i) { return f.px[i] * f.px[i] + f.py[i] * f.py[i] + f.pz[i] * f.pz[i]; };
+    range = root(larger(square(0), larger(square(1), square(2)))) + f.bound;
+  }
+  const Lanes slack = magnitude(f.outside);
+  const Lanes side = slack / (deferral.units.metres + deferral.units.radians * (range + slack));
+  for (size_t i = 0; i < wedgies.size(); ++i)
+    readings[i] = {f.bound[i], f.outside[i], p[i], below[i], above[i], side[i], leaves[i]};
 }
 
 }  // namespace sward::roam

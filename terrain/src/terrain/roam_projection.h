@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 
 #include "roam_calendar.h"
 #include "roam_lanes.h"
@@ -29,14 +30,14 @@ struct Assessment {
 
 /// What a view makes of a wedgie.
 struct Reading {
-  float bound = 0;        ///< Metres.
-  float outside = -1;     ///< Least over the halfspaces of the largest distance; out when negative. Metres.
-  float near_inside = 0;  ///< Least distance to the near plane; negative when the wedgie may cross it.
-  float priority = -1;    ///< Pixels; -1 when out.
-  Lanes farthest[2];      ///< Largest distances to the halfspaces; the last two pad.
-  // Of apex, left and right.
-  Forms form[3];
-  glm::vec3 at[3];  ///< Relative to the eye, metres.
+  float bound = 0;      ///< Metres.
+  float outside = -1;   ///< Least over the halfspaces of the largest distance; out when negative. Metres.
+  float priority = -1;  ///< Pixels; -1 when out.
+  // How many ticks this surely lasts:
+  float below = 0;   ///< that the priority is at most the leaves' guard, while that may fall; 0 when it is not;
+  float above = 0;   ///< that the priority is at least the diamonds' guard, while that may rise; 0 when it is not;
+  float side = 0;    ///< that the wedgie is out, or that it is not.
+  float leaves = 0;  ///< In how many ticks it is going to be out if the view moves as expected.
 
   bool out() const { return outside < 0; }
 };
@@ -90,26 +91,32 @@ class Projection {
     return {CullFlags(inside), priority(thickness(apex, left, right), nearest, bound, inside & k_in_near)};
   }
 
-  /// The same without a parent, with what the ticks below need.
-  Reading read(const Wedgie& wedgie) const;
+  /// What the ticks of a reading depend on beside the view.
+  struct Deferral {
+    TickUnits units;
+    float leaf_guard = 0, diamond_guard = 0;
+  };
+  static constexpr size_t k_together = 4;
+  /// What of a reading is asked for; the rest is left 0. Nothing of it: `outside` and `side` alone.
+  enum Wanted : unsigned { k_outside = 0, k_below = 1, k_above = 2, k_all = 3 };
+  /// Up to four wedgies side by side, without parents.
+  void read(std::span<const Wedgie* const> wedgies, const Deferral& deferral, Wanted wanted, Reading* readings) const;
+  /// Whether up to four wedgies are out: as read() finds it.
+  std::array<bool, k_together> out(std::span<const Wedgie* const> wedgies) const;
 
   /// Motion so far, from the view of `before` within so many ticks: it is expected to go on.
   void expect(const Projection& before, double ticks);
-  /// In how many ticks a wedgie is going to be out if the view moves as expected; for some time it may go on for ever.
-  float ticks_to_leave(const Reading& r) const;
-
-  // How many ticks a finding surely lasts. See roam_projection.cpp.
-
-  /// That a wedgie is out, or that it is not.
-  float side_ticks(const Reading& r, const TickUnits& units) const;
-  /// That the priority is at most `guard`, while the guard may fall; 0 when it is not.
-  float below_ticks(const Reading& r, float guard, const TickUnits& units) const;
-  /// That the priority is at least `guard`, while the guard may rise; 0 when it is not.
-  float above_ticks(const Reading& r, float guard, const TickUnits& units) const;
 
  private:
+  struct Four;
   struct Change;
-  Change change_of(const Reading& r, const TickUnits& units) const;
+  Four place(std::span<const Wedgie* const> wedgies) const;
+  void measure_sides(Four& four) const;
+  Lanes priority(const Four& four) const;
+  Change change_of(const Four& four, const TickUnits& units) const;
+  Lanes below_ticks(const Four& four, const Change& change, Lanes priority, const Deferral& deferral) const;
+  Lanes above_ticks(const Change& change, Lanes priority, const Deferral& deferral) const;
+  Lanes ticks_to_leave(const Four& four) const;
 
   Forms project(glm::vec3 p) const {
     Forms out;
@@ -132,8 +139,13 @@ class Projection {
   Forms form_x_{}, form_y_{}, form_z_{}, form_1_{};
   Forms reach_{};              // |n.z| of the halfspaces
   float depth_per_metre_ = 0;  // |C|
-  // Changes of the distances to the halfspaces a tick, as expected.
-  Lanes rate_x_[2] = {}, rate_y_[2] = {}, rate_z_[2] = {}, rate_1_[2] = {};
+  // The same forms, each in all lanes, and the changes of those of the halfspaces a tick, as expected.
+  struct Form {
+    Lanes x{}, y{}, z{}, one{};
+    Lanes at(Lanes px, Lanes py, Lanes pz) const { return x * px + y * py + z * pz + one; }
+  };
+  std::array<Form, Forms::k_forms> form_{};
+  std::array<Form, Forms::k_sides> rate_{};
   // Gradients of x, y and w in the eye's travel, and the axes by which they change when the view turns.
   glm::vec3 x_axis_{0}, y_axis_{0}, w_axis_{0}, x_turn_{0}, y_turn_{0};
   // Limits of change: of (x, y) per metre; per radian in any case; of w per metre.

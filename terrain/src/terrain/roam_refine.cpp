@@ -46,9 +46,33 @@ uint32_t RoamEngine::split_chain(const Chain& chain) {
   return uint32_t(chain.length);
 }
 
+// Of a diamond that has just been split.
+void RoamEngine::take_children(std::span<const uint32_t, 2> halves) {
+  std::array<uint32_t, 4> in_sight;
+  size_t count = 0;
+  for (const uint32_t half : halves) {
+    if (half == k_none) continue;
+    for (uint32_t child = tree_.child[half]; child <= tree_.child[half] + 1; ++child) {
+      state_[child] = {};
+      wedgie_[child] = {};
+      take_node(child);
+      if (!is_visible(half)) continue;
+      if (options_.plain) {
+        look_plainly(child, state_[half].cull);
+      } else {
+        in_sight[count++] = child;
+      }
+    }
+  }
+  if (count == 0) return;
+  std::array<Reading, 4> readings;
+  read({in_sight.data(), count}, Projection::k_below, readings.data());
+  for (size_t i = 0; i < count; ++i) take_reading(in_sight[i], readings[i]);
+}
+
 void RoamEngine::split_one(uint32_t node) {
   const uint32_t halves[2] = {node, tree_.neighbour[node].base};
-  bool seen = false;
+  bool seen = false, near = false;
   for (const uint32_t half : halves) {
     if (half == k_none) continue;
     const uint32_t parent = tree_.nodes[half].parent;
@@ -56,6 +80,8 @@ void RoamEngine::split_one(uint32_t node) {
     if (parent != k_none) forget_diamond(parent);
     if (!is_visible(half)) continue;
     seen = true;
+    const NodeState& s = state_[half];
+    near |= morphs() && (s.queued() ? s.key : read(half).priority) >= RoamMesh::k_artificial_max;
     unplace(half);
     if (draws_.contains(half)) draws_.remove(half);
   }
@@ -64,17 +90,7 @@ void RoamEngine::split_one(uint32_t node) {
   tree_.split_diamond(node);
   grow_arrays();
   take_vertex(tree_.corner[tree_.child[node]].apex);
-  bool near = false;
-  for (const uint32_t half : halves) {
-    if (half == k_none) continue;
-    near |= is_visible(half) && read(half).priority >= RoamMesh::k_artificial_max;
-    for (uint32_t child = tree_.child[half]; child <= tree_.child[half] + 1; ++child) {
-      state_[child] = {};
-      wedgie_[child] = {};
-      take_node(child);
-      if (is_visible(half)) look(child, state_[half].cull);
-    }
-  }
+  take_children(halves);
   // What crosses the near plane has no bound in pixels to keep while it moves.
   if (morphs() && seen && !near) {
     rise(node, from_z);
@@ -290,18 +306,6 @@ RoamEngine::Ghost RoamEngine::ghost(uint32_t node) const {
           tree_.nodes[node].id.level(), tree_.nodes[node].cover, state_[node].cull};
 }
 
-// As look() will find it.
-CullFlags RoamEngine::sees(const Ghost& g, float bound, CullFlags inherited) const {
-  if (inherited & k_out) return k_out;
-  if (options_.plain) {
-    const auto forms = [&](glm::dvec3 p) { return projection_.project(p); };
-    return projection_.assess(forms(g.apex), forms(g.left), forms(g.right), bound, inherited).cull;
-  }
-  Wedgie wedgie;
-  wedgie.place(g.apex, g.left, g.right, bound);
-  return projection_.read(wedgie).out() ? k_out : CullFlags(0);
-}
-
 RoamEngine::Ghost RoamEngine::ghost_child(const Ghost& of, int turn, glm::dvec3 middle) const {
   Ghost child = of;
   child.corners = child_corners(of.corners, turn);
@@ -310,9 +314,31 @@ RoamEngine::Ghost RoamEngine::ghost_child(const Ghost& of, int turn, glm::dvec3 
   child.right = turn == 0 ? of.left : of.apex;
   child.level = of.level + 1;
   child.cover = cover_of(tree_.lattice(), child.corners, of.cover);
-  const float bound = tree_.surface().bound(centre_of(child.corners), child.level);
-  child.cull = child.cover == Cover::padding ? k_out : sees(child, bound, of.cull);
   return child;
+}
+
+// Their flags, which are their parents' so far, as looks will find them.
+void RoamEngine::see(std::span<Ghost> children) const {
+  std::array<Wedgie, Projection::k_together> wedgies;
+  std::array<const Wedgie*, Projection::k_together> asked;
+  for (size_t i = 0; i < children.size(); ++i) {
+    const Ghost& g = children[i];
+    const bool padding = g.cover == Cover::padding;
+    const float bound = padding ? -1.0f : tree_.surface().bound(centre_of(g.corners), g.level);
+    wedgies[i].place(g.apex, g.left, g.right, bound);
+    asked[i] = &wedgies[i];
+  }
+  if (options_.plain) {
+    const auto forms = [&](glm::dvec3 p) { return projection_.project(p); };
+    for (size_t i = 0; i < children.size(); ++i) {
+      Ghost& g = children[i];
+      g.cull = projection_.assess(forms(g.apex), forms(g.left), forms(g.right), wedgies[i].bound, g.cull).cull;
+    }
+    return;
+  }
+  const auto out = projection_.out({asked.data(), children.size()});
+  for (size_t i = 0; i < children.size(); ++i)
+    children[i].cull = children[i].cull & k_out || out[i] ? k_out : CullFlags(0);
 }
 
 // From the coarsest diamond of the chain down. The half across the base of each finer one is a child that the diamond
@@ -327,9 +353,15 @@ int RoamEngine::split_cost(const Chain& chain) const {
     const Ghost own = ghost(chain.node[i]);
     const LatticePoint m = centre_of(own.corners);
     const glm::dvec3 middle(tree_.lattice().world_xy(m), tree_.surface().height(m));
-    const Ghost children[2] = {ghost_child(own, 0, middle), ghost_child(own, 1, middle)};
-    cost += seen(children[0]) + seen(children[1]) - seen(own);
-    if (across) cost += seen(ghost_child(*across, 0, middle)) + seen(ghost_child(*across, 1, middle)) - seen(*across);
+    std::array<Ghost, 4> children;
+    const size_t count = across ? 4 : 2;
+    for (int turn = 0; turn < 2; ++turn) {
+      children[size_t(turn)] = ghost_child(own, turn, middle);
+      if (across) children[size_t(2 + turn)] = ghost_child(*across, turn, middle);
+    }
+    see({children.data(), count});
+    for (size_t k = 0; k < count; ++k) cost += seen(children[k]);
+    cost -= seen(own) + (across ? seen(*across) : 0);
     if (i > 0) across = children[tree_.neighbour[chain.node[i]].left == chain.node[i - 1] ? 0 : 1];
   }
   return cost;

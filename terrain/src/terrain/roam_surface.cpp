@@ -78,9 +78,9 @@ void RoamEngine::look_again(uint32_t node) {
   const bool below_out = parent != k_none && !is_visible(parent);
   if (below_out) return;
   if (!is_visible(node)) {
-    look_at_out(node);
+    look_at_out(node, read(node));
   } else if (acts_as_leaf(node)) {
-    look_at_leaf(node);
+    look_at_leaf(node, read(node));
   }
   if (tree_.is_split(node)) refresh_diamond(node);
 }

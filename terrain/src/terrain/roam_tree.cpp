@@ -57,7 +57,6 @@ uint32_t VertexPool::add(const Surface& surface, LatticePoint point) {
     free_.pop_back();
   }
   lattice[slot] = point;
-  points[slot].motion = {};
   alive[slot] = 1;
   reread(surface, slot);
   return slot;
@@ -65,6 +64,7 @@ uint32_t VertexPool::add(const Surface& surface, LatticePoint point) {
 
 void VertexPool::free(uint32_t slot) {
   alive[slot] = 0;
+  moving -= moves(slot);
   points[slot].motion = {};
   free_.push_back(slot);
 }
@@ -85,6 +85,7 @@ void VertexPool::begin_changes() {
 }
 
 void VertexPool::begin_motion(uint32_t slot, double from_z, double to_z, float seconds) {
+  moving += !moves(slot);
   points[slot].motion = {from_z, to_z, now, seconds};
   write(slot);
 }
@@ -100,6 +101,7 @@ void VertexPool::rebase(glm::dvec3 new_origin) {
 void VertexPool::clear() {
   lattice.clear();
   points.clear();
+  moving = 0;
   gpu.clear();
   alive.clear();
   change_.clear();

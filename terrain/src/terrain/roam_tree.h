@@ -48,9 +48,12 @@ class VertexPool {
   /// From `from_z` to `to_z` within `seconds` (> 0) from now on.
   void begin_motion(uint32_t slot, double from_z, double to_z, float seconds);
   /// The motion is over; nothing is written, since its end is what is drawn.
-  void end_motion(uint32_t slot) { points[slot].motion.seconds = 0; }
+  void end_motion(uint32_t slot) {
+    moving -= moves(slot);
+    points[slot].motion.seconds = 0;
+  }
   bool moves(uint32_t slot) const { return points[slot].motion.seconds > 0; }
-  bool arrived(uint32_t slot) const { return now >= points[slot].motion.start + double(points[slot].motion.seconds); }
+  double arrival(uint32_t slot) const { return points[slot].motion.start + double(points[slot].motion.seconds); }
   /// The height that is drawn now.
   double drawn_z(uint32_t slot) const {
     const Motion& m = points[slot].motion;
@@ -78,6 +81,7 @@ class VertexPool {
   std::vector<uint32_t> changed;  // slots written since begin_changes()
   glm::dvec3 origin{0};
   double now = 0, time_origin = 0;  // seconds
+  uint32_t moving = 0;              // vertices
   bool all_changed = false;
 
  private:
