@@ -49,7 +49,7 @@ class RoamEngine {
   /// Visible leaves that merge() would take away; negative when it brings more into sight than it removes.
   int merge_gain(uint32_t node) const;
 
-  /// A proven bound of the priorities of the visible leaves, and of the diamonds whose centres move.
+  /// At least the priorities of the visible leaves, and what they are off where their corners move.
   float bound_px() const;
   Expected<void> validate() const;
 
@@ -160,6 +160,8 @@ class RoamEngine {
   void finish_falls_now();
   void finish_motions_now();
   void count_falling_surplus();
+  float moved_priority() const;
+  float moved_priority(uint32_t node, uint32_t vertex) const;
   bool centre_moves(uint32_t node) const {
     return !options_.plain && tree_.vertices.moves(tree_.corner[tree_.child[node]].apex);
   }

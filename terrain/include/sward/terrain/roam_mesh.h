@@ -77,9 +77,9 @@ class RoamMesh {
   Expected<void> set_options(const RoamOptions& options);
   const RoamOptions& options() const;
 
-  /// Proven bound of the projected error over the visible leaves of the last update, pixels; k_artificial_max when a
-  /// wedgie crosses the near plane. While vertices move it is that of the coarsest triangles they come from. Cost: some
-  /// 0.1 microseconds a moving vertex.
+  /// Proven bound of the projected error of what the last update draws, over its visible leaves, pixels: the thickness
+  /// of their wedgies, and for those whose corners move the distance to the surface that these have left as well.
+  /// k_artificial_max when a wedgie crosses the near plane. Cost: some half a microsecond a moving vertex.
   float bound_px() const;
   static constexpr float k_artificial_max = 1.0e9f;
 
