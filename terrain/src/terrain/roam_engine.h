@@ -168,6 +168,7 @@ class RoamEngine {
 
   // The surface: roam_surface.cpp.
   void read_surface_again();
+  void ask_again_what_splits();
   void collapse_forbidden(uint32_t node, const LatticeBox& box);
   void reread(uint32_t node, const LatticeBox& box);
   void look_again(uint32_t node);

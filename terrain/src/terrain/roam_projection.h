@@ -106,7 +106,7 @@ class Projection {
     const float near_inside = std::min(apex.side(4), std::min(left.side(4), right.side(4))) - offset * reach_[4];
     const float denominator = (nearest - offset * depth_per_metre_) * (nearest + bound * depth_per_metre_);
     if (near_inside < 0 || nearest <= offset * depth_per_metre_ || denominator <= 0) return RoamMesh::k_artificial_max;
-    return std::min((bound + offset) * thickness(apex, left, right) / denominator, RoamMesh::k_artificial_max);
+    return cap((bound + offset) * thickness(apex, left, right) / denominator);
   }
 
   // How many ticks a finding surely lasts. See roam_projection.cpp.
@@ -128,6 +128,8 @@ class Projection {
       out.lane[i] = form_x_.lane[i] * p.x + form_y_.lane[i] * p.y + form_z_.lane[i] * p.z + form_1_.lane[i];
     return out;
   }
+  // What single precision does not hold (matrices of 1e30 and the like) counts as the largest.
+  static float cap(float pixels) { return pixels < RoamMesh::k_artificial_max ? pixels : RoamMesh::k_artificial_max; }
   static float thickness(const Forms& a, const Forms& b, const Forms& c) {
     return std::sqrt(std::max(a.square(), std::max(b.square(), c.square())));
   }
@@ -136,7 +138,7 @@ class Projection {
     const float depth_reach = bound * depth_per_metre_;
     const float denominator = (w - depth_reach) * (w + depth_reach);
     if (!inside_near || w <= depth_reach || denominator <= 0) return RoamMesh::k_artificial_max;
-    return std::min(2 * bound * thickness / denominator, RoamMesh::k_artificial_max);
+    return cap(2 * bound * thickness / denominator);
   }
 
   glm::dvec3 eye_{0};

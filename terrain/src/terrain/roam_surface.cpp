@@ -40,11 +40,19 @@ void RoamEngine::read_surface_again() {
   }
   changes_.clear();
   settled_ = false;
-  // What could not be split may be by now.
-  if (options_.plain) return;
+  ask_again_what_splits();
+}
+
+// What could not be split may be by now, and what could may not. Leaves in calendars are asked when they come due.
+void RoamEngine::ask_again_what_splits() {
+  if (options_.plain) return look_at_all();
   visits_.clear();
   for (uint32_t node = 0; (node = blocked_queue_.highest(state_)) != k_none; visits_.push_back({node, 0}))
     unplace(node);
+  for (const uint32_t node : hot_leaves_) {
+    const bool alive = node < tree_.size() && tree_.is_alive(node);
+    if (alive && tree_.is_leaf(node) && state_[node].queued()) visits_.push_back({node, 0});
+  }
   for (const Visit& visit : visits_) place(visit.node, read(visit.node));
 }
 

@@ -51,6 +51,9 @@ class Validator {
                              t_.surface().height(t_.vertices.lattice[slot]));
       require(world == t_.vertices.points[slot].world, node, "has a vertex off the height field");
     }
+    const bool padding = t_.nodes[node].cover == Cover::padding;
+    const float bound = padding ? -1.0f : t_.surface().bound(centre_of(actual), t_.nodes[node].id.level());
+    require(t_.corner[node].bound == bound, node, "has a bound other than the surface's");
     const uint32_t parent = t_.nodes[node].parent;
     if (parent == k_none) {
       require(node < t_.root_count(), node, "has no parent and is no root");
