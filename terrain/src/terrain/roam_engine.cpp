@@ -92,6 +92,7 @@ Expected<RoamStats> RoamEngine::update(const View& view, std::optional<double> t
     operation_limit_ = 4 * (uint64_t(tree_.leaf_count()) + options_.max_triangles) + 1024;
     time_checks_ = leaf_guard_steps_ = diamond_guard_steps_ = 0;
     settled_ = converge();
+    release_more();
   }
   if (stats_.capped) still_since_ = tree_.vertices.now;
   draws_.close();

@@ -142,6 +142,8 @@ class RoamEngine {
   void shrink_to_budget();
   void give_up(uint32_t node);
   void trim_below_target();
+  void release_slowly();
+  void release_more();
   bool out_of_time();
   uint32_t decision_budget() const;
   int64_t decided_count() const { return int64_t(visible_count()) - falling_surplus_; }
@@ -181,6 +183,7 @@ class RoamEngine {
   double still_since_ = 0;     // the time of the last change of what is asked for
   Projection projection_;
   bool settled_ = false;       // the mesh is what view_ and options_ ask for
+  bool balanced_ = true;       // the largest priority left is where splitting and merging meet
   bool fresh_ = true;          // nothing is known of the nodes
   bool from_nothing_ = false;  // the mesh of this update has no past to move from
   RoamStats stats_;
@@ -247,6 +250,8 @@ class RoamEngine {
   uint32_t time_checks_ = 0;
   uint64_t operations_ = 0;
   uint64_t operation_limit_ = 0;
+  static constexpr uint64_t k_all_released = ~uint64_t(0);
+  uint64_t released_ = k_all_released;  // operations an update may take after parts of the surface were loaded
 };
 
 }  // namespace sward::roam

@@ -32,7 +32,10 @@ void RoamEngine::read_surface_again() {
   for (const Change& change : changes_) {
     if (change.box.empty()) continue;
     for (uint32_t root = 0; root < tree_.root_count(); ++root) collapse_forbidden(root, change.box);
-    if (!change.heights) continue;
+    if (!change.heights) {
+      release_slowly();
+      continue;
+    }
     visits_.clear();
     for (uint32_t root = 0; root < tree_.root_count(); ++root) reread(root, change.box);
     // Only now all that a node may lead to is known.
