@@ -114,9 +114,8 @@ float RoamEngine::moved_priority(uint32_t node, uint32_t vertex) const {
   if (off <= c.bound) return 0;
   for (const uint32_t corner : {c.apex, c.left, c.right})
     if (tree_.vertices.off_surface(corner) > off) return 0;
-  if (read(node).out()) return 0;
-  const auto seen = [this](uint32_t corner) { return projection_.project(tree_.vertices.points[corner].world); };
-  return projection_.moved_priority(seen(c.apex), seen(c.left), seen(c.right), c.bound, off);
+  const Reading reading = read(node);
+  return reading.out() ? 0 : projection_.moved_priority(reading, off);
 }
 
 float RoamEngine::moved_priority() const {

@@ -98,15 +98,15 @@ class Projection {
   /// In how many ticks a wedgie is going to be out if the view moves as expected; for some time it may go on for ever.
   float ticks_to_leave(const Reading& r) const;
 
-  /// The largest distance in pixels between a drawn triangle, whose corners are up to `offset` metres from where they
-  /// are seen here, and the surface within `bound` of it, where offset > bound. The artificial maximum when either may
+  /// The largest distance in pixels between a drawn triangle, whose corners are up to `offset` metres from where the
+  /// wedgie has them, and the surface within that, where offset > its bound. The artificial maximum when either may
   /// cross the near plane.
-  float moved_priority(const Forms& apex, const Forms& left, const Forms& right, float bound, float offset) const {
-    const float nearest = std::min(apex.w(), std::min(left.w(), right.w()));
-    const float near_inside = std::min(apex.side(4), std::min(left.side(4), right.side(4))) - offset * reach_[4];
-    const float denominator = (nearest - offset * depth_per_metre_) * (nearest + bound * depth_per_metre_);
+  float moved_priority(const Reading& r, float offset) const {
+    const float nearest = std::min(r.form[0].w(), std::min(r.form[1].w(), r.form[2].w()));
+    const float near_inside = r.near_inside - (offset - r.bound) * reach_[4];
+    const float denominator = (nearest - offset * depth_per_metre_) * (nearest + r.bound * depth_per_metre_);
     if (near_inside < 0 || nearest <= offset * depth_per_metre_ || denominator <= 0) return RoamMesh::k_artificial_max;
-    return cap((bound + offset) * thickness(apex, left, right) / denominator);
+    return cap((r.bound + offset) * thickness(r.form[0], r.form[1], r.form[2]) / denominator);
   }
 
   // How many ticks a finding surely lasts. See roam_projection.cpp.
