@@ -83,13 +83,13 @@ void print(const char* name, const Flown& flown) {
   std::fflush(stdout);
 }
 
-roam_support::Terrain generated(int side) {
+roam_support::Terrain generated(int side, double spacing) {
   roam_support::TerrainOptions options;
   options.columns = options.rows = side;
-  options.spacing = 20480.0 / (side - 1);
+  options.spacing = spacing;
   options.relief_m = 350;
   options.octaves = 10;
-  options.wavelength = 3500 / options.spacing;
+  options.wavelength = 3500 / spacing;
   return roam_support::make_terrain(options);
 }
 
@@ -108,12 +108,20 @@ void plain_and_deferred() {
   std::printf("plain / deferred: %.1f\n", flight::mean(plain.ms) / flight::mean(deferred.ms));
 }
 
+// More data in two ways: more ground at the same spacing, and finer data over the same ground, which is more to show
+// near the eye, so that more changes.
 void sizes() {
-  const Flown small = fly(generated(1025), budget(50000), 300, k_runs);
-  const Flown large = fly(generated(16385), budget(50000), 300, k_runs);
-  print("1025 x 1025 samples", small);
-  print("16385 x 16385 samples", large);
-  std::printf("16385 / 1025: %.2f\n", flight::mean(large.ms) / flight::mean(small.ms));
+  constexpr int k_small = 1025, k_large = 16385;
+  const Flown small = fly(generated(k_small, 5), budget(50000), 300, k_runs);
+  const Flown wide = fly(generated(k_large, 5), budget(50000), 300, k_runs);
+  print("1025 x 1025 at 5 m", small);
+  print("16385 x 16385 at 5 m", wide);
+  const Flown coarse = fly(generated(k_small, 20), budget(50000), 300, k_runs);
+  const Flown fine = fly(generated(k_large, 1.25), budget(50000), 300, k_runs);
+  print("1025 x 1025 at 20 m", coarse);
+  print("16385 x 16385 at 1.25 m", fine);
+  std::printf("16385 / 1025: %.2f at the same spacing, %.2f over the same ground\n",
+              flight::mean(wide.ms) / flight::mean(small.ms), flight::mean(fine.ms) / flight::mean(coarse.ms));
 }
 
 void bounds_on_threads() {

@@ -21,7 +21,7 @@
 namespace {
 
 constexpr int k_squares = 64, k_period = 4, k_root_bits = 11, k_coarse_bits = 5;
-constexpr int k_cells = 1 << k_root_bits, k_frames = 3600, k_fps = 60;
+constexpr int k_cells = 1 << k_root_bits, k_frames = 3600, k_cold_frames = 900, k_fps = 60;
 constexpr double k_speed = 300;
 
 sward::WorldDesc desc_of(int squares) {
@@ -123,14 +123,17 @@ struct Flight {
       without;                                 // milliseconds of follow, poll, update
   double changes_ms = 0, most_changes_ms = 0;  // of follow and poll alone
   size_t most_bytes = 0;
-  std::vector<double> bounds;  // pixels
-  int late = 0;                // frames in which the square under the eye was not resident
+  std::vector<double> bounds;      // pixels
+  std::vector<double> operations;  // splits and merges
+  int following = 0;               // frames that went on with what a square had set free
+  int late = 0;                    // frames in which the square under the eye was not resident
 };
 
-Flight fly(sward::World& world, sward::RoamMesh& mesh) {
+Flight fly(sward::World& world, sward::RoamMesh& mesh, int frames) {
   Flight flight;
+  bool going_on = false;
   auto due = std::chrono::steady_clock::now();
-  for (int frame = 0; frame < k_frames; ++frame) {
+  for (int frame = 0; frame < frames; ++frame) {
     const double seconds = double(frame) / k_fps;
     const sward::View view = view_of(world, seconds);
     const double begin = thread_ms();
@@ -138,15 +141,20 @@ Flight fly(sward::World& world, sward::RoamMesh& mesh) {
     const auto boxes = world.poll();
     const double polled = thread_ms();
     for (const sward::LatticeBox& box : boxes) mesh.residency_changed(box);
-    (void)mesh.update(view, seconds);
+    const auto stats = mesh.update(view, seconds);
     const double end = thread_ms();
+    flight.operations.push_back(stats->splits + stats->merges);
     flight.changes_ms += polled - begin;
     flight.most_changes_ms = std::max(flight.most_changes_ms, polled - begin);
     flight.most_bytes = std::max(flight.most_bytes, world.stats().bytes);
     flight.bounds.push_back(double(mesh.bound_px()));
     const glm::dvec2 at = world.lattice().from_world(glm::dvec2(view.eye)) / double(sward::k_root_side);
     flight.late += !world.resident(glm::ivec2(at));
-    if (frame > 0) (boxes.empty() ? flight.without : flight.with_change).push_back(end - begin);
+    // Frames that go on with what came are because of loading, too.
+    const bool changed = !boxes.empty() || going_on;
+    going_on = stats->capped;
+    flight.following += boxes.empty() && changed;
+    if (frame > 0) (changed ? flight.with_change : flight.without).push_back(end - begin);
     due += std::chrono::microseconds(1000000 / k_fps);
     std::this_thread::sleep_until(due);
   }
@@ -160,13 +168,15 @@ void world_flight(benchmark::State& state) {
     const auto world = sward::World::create(desc_of(k_squares), repeated_coarse(), generate, options).value();
     sward::RoamOptions roam;
     roam.max_triangles = uint32_t(state.range(1));
-    // What a square brings is refined over several frames.
     roam.time_cap_s = double(state.range(2)) * 1e-3;
     auto mesh = sward::RoamMesh::create(*world, roam).value();
-    world_support::settle(*world, view_of(*world, 0));
+    // Cold: nothing is resident at first, and what arrives in the first seconds lies under the eye.
+    const bool cold = state.range(3) != 0;
+    const int frames = cold ? k_cold_frames : k_frames;
+    if (!cold) world_support::settle(*world, view_of(*world, 0));
     (void)mesh.update(view_of(*world, 0), 0);
     const sward::WorldStats before = world->stats();
-    Flight flight = fly(*world, mesh);
+    Flight flight = fly(*world, mesh, frames);
     const sward::WorldStats after = world->stats();
     std::vector<double> all = flight.with_change;
     all.insert(all.end(), flight.without.begin(), flight.without.end());
@@ -188,19 +198,23 @@ void world_flight(benchmark::State& state) {
     state.counters["changed_ms_max"] = largest(flight.with_change);
     state.counters["unchanged_ms_max"] = largest(flight.without);
     state.counters["changed_max_over_mean"] = largest(flight.with_change) / average;
-    state.counters["follow_poll_ms_mean"] = flight.changes_ms / k_frames;
+    state.counters["follow_poll_ms_mean"] = flight.changes_ms / frames;
     state.counters["follow_poll_ms_max"] = flight.most_changes_ms;
     std::sort(flight.bounds.begin(), flight.bounds.end());
     state.counters["bound_px_median"] = flight.bounds[flight.bounds.size() / 2];
     state.counters["bound_px_p99"] = flight.bounds[flight.bounds.size() * 99 / 100];
     state.counters["late_frames"] = flight.late;
+    state.counters["following_frames"] = flight.following;
+    state.counters["operations_mean"] = mean(flight.operations);
+    state.counters["operations_max"] = largest(flight.operations);
   }
 }
 
 BENCHMARK(world_flight)
-    ->ArgNames({"cap_MB", "triangles", "time_cap_ms"})
-    ->Args({512, 50000, 4})
-    ->Args({512, 50000, 0})
+    ->ArgNames({"cap_MB", "triangles", "time_cap_ms", "cold"})
+    ->Args({512, 50000, 0, 0})
+    ->Args({512, 50000, 4, 0})
+    ->Args({512, 50000, 0, 1})
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();

@@ -10,6 +10,7 @@
 
 #include "../../terrain/src/terrain/roam_engine.h"
 #include "../roam_support.h"
+#include "partly_resident.h"
 
 /// Turns bytes into operations on a mesh and checks its structure after each. One driver for the seeded test and for
 /// libFuzzer.
@@ -36,25 +37,20 @@ class Input {
   size_t at_ = 0;
 };
 
-/// Fields of different kinds, made once: plain, padded with several root squares, with holes, with relief, flat.
-inline const roam_support::Terrain& terrain_of_kind(int kind) {
-  static const auto terrains = [] {
-    std::array<roam_support::Terrain, 5> all;
-    for (size_t i = 0; i < all.size(); ++i) {
-      roam_support::TerrainOptions options;
-      options.seed = uint32_t(i + 1);
-      if (i == 1) options.columns = 75, options.rows = 22;
-      if (i == 2) {
-        options.holes.assign(65 * 65, 0);
-        for (size_t k = 0; k < options.holes.size(); ++k) options.holes[k] = k % 65 > 30 && k % 65 < 50 && k > 800;
-      }
-      if (i == 3) options.columns = options.rows = 17, options.spacing = 20, options.detail = true;
-      if (i == 4) options.relief_m = 0;
-      all[i] = roam_support::make_terrain(options);
-    }
-    return all;
-  }();
-  return terrains[size_t(kind) % terrains.size()];
+/// Fields of different kinds: plain, padded with several root squares, with holes, with relief, flat. Made anew for
+/// each run, because edits change them.
+inline roam_support::Terrain make_terrain_of_kind(int kind) {
+  const int i = kind % 5;
+  roam_support::TerrainOptions options;
+  options.seed = uint32_t(i + 1);
+  if (i == 1) options.columns = 75, options.rows = 22;
+  if (i == 2) {
+    options.holes.assign(65 * 65, 0);
+    for (size_t k = 0; k < options.holes.size(); ++k) options.holes[k] = k % 65 > 30 && k % 65 < 50 && k > 800;
+  }
+  if (i == 3) options.columns = options.rows = 17, options.spacing = 20, options.detail = true;
+  if (i == 4) options.relief_m = 0;
+  return roam_support::make_terrain(options);
 }
 
 inline sward::View read_view(Input& in, const sward::Lattice& field) {
@@ -90,34 +86,120 @@ uint32_t find_node(const sward::roam::RoamTree& tree, uint32_t start, Wanted&& w
   return sward::roam::k_none;
 }
 
-/// One operation; what it did wrong, or nothing.
-inline std::string step(Input& in, sward::roam::RoamEngine& engine, double& clock) {
+/// What a run works on.
+struct Scene {
+  roam_support::Terrain terrain;
+  PartlyResident surface;
+  sward::roam::RoamEngine engine;
+  double clock = 0;
+
+  explicit Scene(int kind) : terrain(make_terrain_of_kind(kind)), surface(*terrain.bounds), engine(surface, {}) {}
+};
+
+inline std::string check_budget(const sward::roam::RoamEngine& engine) {
+  return engine.visible_count() > engine.options().max_triangles ? "the budget is exceeded" : "";
+}
+
+/// After an update nothing is split that the surface does not allow. Forced splits go deeper than it where the driver
+/// asks for them, which it only does while all is resident.
+inline std::string check_residency(const Scene& scene) {
+  const sward::roam::RoamTree& tree = scene.engine.tree();
+  for (uint32_t node = 0; node < tree.size(); ++node) {
+    if (!tree.is_split(node)) continue;
+    const int level = tree.nodes[node].id.level();
+    if (level >= tree.lattice().max_level) continue;
+    if (!scene.surface.can_split(sward::roam::centre_of(tree.corners(node)), level))
+      return "what is not resident is split";
+  }
+  return "";
+}
+
+inline std::string split_some_leaf(Input& in, Scene& scene) {
+  sward::roam::RoamEngine& engine = scene.engine;
   const sward::roam::RoamTree& tree = engine.tree();
-  switch (in.byte() % 7) {
+  const bool all = scene.surface.present().all();
+  const int deepest = std::min(tree.lattice().max_level + 2, sward::k_max_level - 1);
+  const uint32_t leaf = find_node(tree, in.word(), [&](uint32_t n) {
+    return tree.is_leaf(n) && (all ? tree.nodes[n].id.level() < deepest : tree.splittable(n));
+  });
+  if (leaf == sward::roam::k_none) return "";
+  const sward::roam::Chain chain = tree.forced_chain(leaf);
+  for (int i = 0; i < chain.length; ++i)
+    if (!all && !tree.splittable(chain.node[i])) return "a forced split is not allowed where the split is";
+  const int cost = engine.view() ? engine.split_cost(chain) : 0;
+  const int before = int(engine.visible_count());
+  engine.split(leaf);
+  return int(engine.visible_count()) - before == cost ? "" : "a split cost other than foretold";
+}
+
+inline std::string merge_some_diamond(Input& in, sward::roam::RoamEngine& engine) {
+  const sward::roam::RoamTree& tree = engine.tree();
+  const uint32_t node = find_node(tree, in.word(), [&](uint32_t n) { return tree.mergeable(n); });
+  if (node == sward::roam::k_none) return "";
+  const int gain = engine.merge_gain(node), before = int(engine.visible_count());
+  engine.merge(node);
+  // More where a half was shown although it had gone out of sight.
+  const int more = before - int(engine.visible_count()) - gain;
+  return more >= 0 && more <= 2 ? "" : "a merge gained other than foretold";
+}
+
+/// Loads and drops squares (not with relief, which worlds do not have). The mesh follows in its next update, which may
+/// come some steps later.
+inline void change_residency(Input& in, Scene& scene) {
+  if (scene.terrain.field->desc().relief.enabled) return;
+  PartlyResident::Squares present = scene.surface.present();
+  switch (in.byte() % 4) {
+    case 0:
+      present.set();
+      break;
+    case 1:
+      present &= PartlyResident::Squares(in.word());
+      break;
+    default:
+      present.flip(in.byte() % present.size());
+  }
+  scene.engine.residency_changed(scene.surface.set_present(present));
+}
+
+/// Raises or lowers some of the ground. Meshes follow in the next update, before which they do not fit the field.
+inline std::string edit_ground(Input& in, Scene& scene) {
+  if (!scene.engine.view()) return "";
+  const sward::HeightField& field = *scene.terrain.field;
+  const glm::dvec2 low = field.min_corner(), high = field.max_corner();
+  sward::Edit edit;
+  edit.kind = in.byte() % 2 ? sward::Edit::Kind::raise : sward::Edit::Kind::flatten;
+  edit.metres = in.between(-60, 60);
+  edit.region = sward::EditRegion::disc({in.between(low.x, high.x), in.between(low.y, high.y)}, in.between(1, 200),
+                                        in.between(0, 50));
+  const auto edited = sward::edit(*scene.terrain.field, *scene.terrain.bounds, edit);
+  if (!edited) return edited.error().message;
+  scene.engine.surface_changed(edited->changed);
+  if (const auto stats = scene.engine.update(*scene.engine.view(), scene.clock); !stats) return stats.error().message;
+  return check_budget(scene.engine);
+}
+
+/// One operation; what it did wrong, or nothing.
+inline std::string step(Input& in, Scene& scene) {
+  sward::roam::RoamEngine& engine = scene.engine;
+  const sward::Lattice& lattice = engine.tree().lattice();
+  const auto after_update = [&] {
+    const std::string fault = check_budget(engine);
+    return fault.empty() && !scene.surface.present().all() ? check_residency(scene) : fault;
+  };
+  switch (in.byte() % 9) {
     case 0:
       (void)engine.set_options(read_options(in));
       return "";
     case 1:
     case 2:
-      if (!engine.update(read_view(in, tree.lattice()))) return "";
-      return engine.visible_count() > engine.options().max_triangles ? "the budget is exceeded" : "";
-    case 3: {
-      const int deepest = std::min(tree.lattice().max_level + 2, sward::k_max_level - 1);
-      const uint32_t leaf =
-          find_node(tree, in.word(), [&](uint32_t n) { return tree.is_leaf(n) && tree.nodes[n].id.level() < deepest; });
-      if (leaf == sward::roam::k_none) return "";
-      const sward::roam::Chain chain = tree.forced_chain(leaf);
-      const int cost = engine.view() ? engine.split_cost(chain) : 0;
-      const int before = int(engine.visible_count());
-      engine.split(leaf);
-      return int(engine.visible_count()) - before == cost ? "" : "a split cost other than foretold";
-    }
+      return engine.update(read_view(in, lattice)) ? after_update() : "";
+    case 3:
+      return split_some_leaf(in, scene);
     case 4: {
       // With a clock: a new view, or the last one some time later.
-      clock += in.between(0, 0.2);
+      scene.clock += in.between(0, 0.2);
       const bool still = in.byte() % 2 == 0 && engine.view();
-      if (!engine.update(still ? *engine.view() : read_view(in, tree.lattice()), clock)) return "";
-      return engine.visible_count() > engine.options().max_triangles ? "the budget is exceeded" : "";
+      return engine.update(still ? *engine.view() : read_view(in, lattice), scene.clock) ? after_update() : "";
     }
     case 5: {
       const sward::LatticePoint first(in.word() * 8, in.word() * 8);
@@ -125,26 +207,23 @@ inline std::string step(Input& in, sward::roam::RoamEngine& engine, double& cloc
       in.byte() % 2 ? engine.surface_changed(box) : engine.residency_changed(box);
       return "";
     }
-    default: {
-      const uint32_t node = find_node(tree, in.word(), [&](uint32_t n) { return tree.mergeable(n); });
-      if (node == sward::roam::k_none) return "";
-      const int gain = engine.merge_gain(node), before = int(engine.visible_count());
-      engine.merge(node);
-      return before - int(engine.visible_count()) == gain ? "" : "a merge gained other than foretold";
-    }
+    case 6:
+      return merge_some_diamond(in, engine);
+    case 7:
+      change_residency(in, scene);
+      return "";
+    default:
+      return edit_ground(in, scene);
   }
 }
 
-/// Runs the input; the first fault, or nothing.
-inline std::string run(std::span<const uint8_t> bytes) {
+/// Runs the input; the first fault, or nothing. Adds the number of steps to `steps`.
+inline std::string run(std::span<const uint8_t> bytes, uint64_t& steps) {
   Input in(bytes);
-  const roam_support::Terrain& terrain = terrain_of_kind(in.byte());
-  const sward::FieldSurface surface(*terrain.bounds);
-  sward::roam::RoamEngine engine(surface, {});
-  double clock = 0;
-  while (!in.empty()) {
-    if (std::string fault = step(in, engine, clock); !fault.empty()) return fault;
-    if (const auto valid = engine.validate(); !valid) return valid.error().message;
+  Scene scene(in.byte());
+  for (; !in.empty(); ++steps) {
+    if (std::string fault = step(in, scene); !fault.empty()) return fault;
+    if (const auto valid = scene.engine.validate(); !valid) return valid.error().message;
   }
   return "";
 }

@@ -10,7 +10,8 @@
 #include "roam_driver.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  const std::string fault = roam_driver::run({data, size});
+  uint64_t steps = 0;
+  const std::string fault = roam_driver::run({data, size}, steps);
   if (!fault.empty()) {
     std::fprintf(stderr, "%s\n", fault.c_str());
     std::abort();

@@ -3,6 +3,7 @@
 
 // What GroundTextures puts on the GPU.
 #include <sward/gl/ground.h>
+#include <sward/terrain/edits.h>
 
 #include <cmath>
 
@@ -123,6 +124,53 @@ TEST_F(Ground, LargeFieldsAreUploadedInBandsWithoutSeams) {
   ASSERT_TRUE(ground) << ground.error().message;
   const std::vector<glm::vec2> slopes = read_slopes(*ground, {3, 700});
   for (int row = 1; row < 699; ++row) EXPECT_NEAR(slopes[size_t(row) * 3].y, -row / 1000.0, 1e-3) << row;
+}
+
+// As if made from the edited field: every texel of every level, and no other state.
+TEST_F(Ground, SlopesOfAnEditedFieldAreThoseOfANewMap) {
+  HeightField field =
+      field_of(75, 52, {2, 3}, [](double x, double y) { return std::sin(x / 9) + 0.3 * std::cos(y / 5); });
+  Bounds bounds = Bounds::create(field, 1);
+  const ColorMap map = numbered_map(5, 3);
+  Expected<gl::GroundTextures> ground = gl::GroundTextures::create(field, map);
+  ASSERT_TRUE(ground) << ground.error().message;
+  const auto levels = [](const gl::GroundTextures& of) {
+    std::vector<glm::vec2> all;
+    for (glm::ivec2 size(75, 52);; size = glm::max(size / 2, glm::ivec2(1))) {
+      std::vector<glm::vec2> level(size_t(size.x * size.y));
+      const GLint number = GLint(std::log2(75 / size.x + 0.5));
+      glGetTextureImage(of.slope_map(), number, GL_RG, GL_FLOAT, GLsizei(level.size() * sizeof(glm::vec2)),
+                        level.data());
+      all.insert(all.end(), level.begin(), level.end());
+      if (size == glm::ivec2(1)) return all;
+    }
+  };
+  const std::vector<glm::vec2> before = levels(*ground);
+  const glm::dvec2 low = field.min_corner(), high = field.max_corner();
+  // In the middle, over a corner, one sample alone, over the whole of it.
+  for (const EditRegion& region :
+       {EditRegion::disc(0.5 * (low + high), 14), EditRegion::disc(low, 20, 5),
+        EditRegion::disc(field.world_xy({0, 0}), 0.5), EditRegion::rectangle(low - 10.0, high + 10.0, 15)}) {
+    Edit change;
+    change.region = region;
+    change.metres = 7;
+    const Expected<EditResult> edited = edit(field, bounds, change);
+    ASSERT_TRUE(edited) << edited.error().message;
+    ASSERT_GT(edited->samples, 0);
+    {
+      const test::PoisonedState poison;
+      const test::GlState state = test::capture_state();
+      ground->update_slopes(field, edited->changed);
+      test::expect_only_changed(state, test::capture_state(), {});
+    }
+    const Expected<gl::GroundTextures> anew = gl::GroundTextures::create(field, map);
+    ASSERT_TRUE(anew) << anew.error().message;
+    EXPECT_EQ(levels(*ground), levels(*anew));
+  }
+  EXPECT_NE(levels(*ground), before);
+  const std::vector<glm::vec2> last = levels(*ground);
+  ground->update_slopes(field, LatticeBox{});
+  EXPECT_EQ(levels(*ground), last);
 }
 
 TEST_F(Ground, RefusesMapsBeyondTheDevice) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // Pictures of small generated fields: what the terrain's and the sky's shaders compute, and what their draws leave.
+#include <sward/terrain/edits.h>
 #include <sward/terrain_gl/terrain_renderer.h>
 
 #include <cmath>
@@ -334,6 +335,32 @@ TEST_F(TerrainDraw, UploadingChangesGivesTheSamePictureAsUploadingAll) {
     fresh.upload(*world.mesh);
     EXPECT_EQ(largest_difference(draw(incremental, world, view, light), draw(fresh, world, view, light)), 0) << frame;
   }
+}
+
+TEST_F(TerrainDraw, EditedGroundLooksAsIfMadeThatWay) {
+  const ColorMap map = map_of(8, 8, {{90, 122, 53}, {150, 130, 90}});
+  World edited({65, 65}, 8, {0, 0, 0}, hills, map), still({65, 65}, 8, {0, 0, 0}, hills, map);
+  const View view = flight_view(4);
+  const Picture before = update_and_draw(edited, view, plain_light());
+  Edit crater;
+  crater.kind = Edit::Kind::crater;
+  crater.region = EditRegion::disc({10, 20}, 60);
+  crater.metres = 18;
+  const auto change = [&](World& world) {
+    const Expected<EditResult> result = edit(world.field, *world.bounds, crater);
+    EXPECT_TRUE(result) << result.error().message;
+    world.mesh->surface_changed(result->changed);
+    return result->changed;
+  };
+  edited.ground->update_slopes(edited.field, change(edited));
+  change(still);
+  World anew({65, 65}, 8, {0, 0, 0}, hills, map);
+  change(anew);
+  anew.ground = std::move(*gl::GroundTextures::create(anew.field, anew.colors));
+  const Picture expected = update_and_draw(anew, view, plain_light());
+  EXPECT_EQ(largest_difference(update_and_draw(edited, view, plain_light()), expected), 0);
+  EXPECT_GT(largest_difference(before, expected), 30);
+  EXPECT_GT(largest_difference(update_and_draw(still, view, plain_light()), expected), 30) << "shaded by old slopes";
 }
 
 TEST_F(TerrainDraw, UploadWritesOnlyWhatChanged) {

@@ -166,6 +166,41 @@ TEST(WorldMesh, BoundIsTrueWhateverIsResident) {
   EXPECT_GT(worst, 1);
 }
 
+// Squares that arrive set thousands of splits free. They are made over several updates, the same in every run, and end
+// in the mesh that had all squares from the start.
+TEST(WorldMesh, WhatIsLoadedIsFollowedOverSeveralUpdates) {
+  const Heights heights = make_heights(make_desc({3, 3}, 7, 2));
+  const auto world = make_world(heights, loader_of(heights), roomy());
+  const sward::View view = view_over(*world);
+  sward::RoamMesh mesh = mesh_over(*world, 12000), twin = mesh_over(*world, 12000);
+  for (sward::RoamMesh* each : {&mesh, &twin}) ASSERT_TRUE(each->update(view));
+  const size_t coarse = mesh.visible_indices().size() / 3;
+  const auto boxes = settle(*world, view);
+  tell(mesh, boxes);
+  tell(twin, boxes);
+  std::vector<uint32_t> made;
+  for (bool capped = true; capped && made.size() < 100;) {
+    const auto stats = mesh.update(view);
+    ASSERT_TRUE(stats);
+    ASSERT_TRUE(twin.update(view));
+    ASSERT_EQ(triangles_of(mesh), triangles_of(twin)) << "update " << made.size();
+    const auto valid = mesh.validate();
+    ASSERT_TRUE(valid) << valid.error().message;
+    made.push_back(stats->splits + stats->merges);
+    capped = stats->capped;
+  }
+  ASSERT_GT(mesh.visible_indices().size() / 3, coarse + 5000);
+  EXPECT_LT(made.front(), 1000u);
+  EXPECT_GT(made.size(), 5u);
+  EXPECT_LT(made.size(), 30u) << "more in every update";
+  sward::RoamMesh at_once = mesh_over(*world, 12000);
+  ASSERT_TRUE(at_once.update(view));
+  EXPECT_EQ(triangles_of(mesh), triangles_of(at_once));
+  EXPECT_EQ(mesh.bound_px(), at_once.bound_px());
+  const auto still = mesh.update(view);
+  EXPECT_EQ(still->splits + still->merges, 0u);
+}
+
 // 10 000 km from the origin: the same triangles, and what the GPU gets differs
 // by no more than x and y do in double precision (2 nm) rounded to the float at
 // kilometre range (0.1 mm).

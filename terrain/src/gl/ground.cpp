@@ -74,21 +74,28 @@ glm::vec2 slope_at(const HeightField& field, int column, int row) {
           (field.sample(column, north) - field.sample(column, south)) / ((south - north) * desc.spacing.y)};
 }
 
+/// Computes and uploads the slopes of samples first..last, both included.
+void write_slopes(GLuint texture, const HeightField& field, glm::ivec2 first, glm::ivec2 last) {
+  const glm::ivec2 size = last - first + 1;
+  std::vector<glm::vec2> slopes(size_t(size.x) * size_t(std::min(size.y, k_rows_at_a_time)));
+  for (int above = 0; above < size.y; above += k_rows_at_a_time) {
+    const int rows = std::min(k_rows_at_a_time, size.y - above);
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < size.x; ++column) {
+        slopes[size_t(row) * size_t(size.x) + size_t(column)] =
+            slope_at(field, first.x + column, first.y + above + row);
+      }
+    }
+    glTextureSubImage2D(texture, 0, first.x, first.y + above, size.x, rows, GL_RG, GL_FLOAT, slopes.data());
+  }
+  glGenerateTextureMipmap(texture);
+}
+
 Texture make_slope_map(const HeightField& field) {
   const glm::ivec2 size(field.desc().columns, field.desc().rows);
   Texture texture = create_texture(GL_TEXTURE_2D);
   glTextureStorage2D(texture.id(), level_count(size), GL_RG16F, size.x, size.y);
-  std::vector<glm::vec2> slopes(size_t(size.x) * size_t(std::min(size.y, k_rows_at_a_time)));
-  for (int first = 0; first < size.y; first += k_rows_at_a_time) {
-    const int rows = std::min(k_rows_at_a_time, size.y - first);
-    for (int row = 0; row < rows; ++row) {
-      for (int column = 0; column < size.x; ++column) {
-        slopes[size_t(row) * size_t(size.x) + size_t(column)] = slope_at(field, column, first + row);
-      }
-    }
-    glTextureSubImage2D(texture.id(), 0, 0, first, size.x, rows, GL_RG, GL_FLOAT, slopes.data());
-  }
-  glGenerateTextureMipmap(texture.id());
+  write_slopes(texture.id(), field, glm::ivec2(0), size - 1);
   set_trilinear(texture.id());
   return texture;
 }
@@ -115,9 +122,23 @@ Expected<GroundTextures> GroundTextures::create(const HeightField& field, const 
   ground.texels_ = {colors.width, colors.height};
   ground.data_min_ = field.min_corner();
   ground.data_max_ = field.max_corner();
+  ground.samples_ = samples;
   ground.field_min_ = ground.data_min_ - 0.5 * desc.spacing;
   ground.field_size_ = glm::dvec2(samples) * desc.spacing;
   return ground;
+}
+
+void GroundTextures::update_slopes(const HeightField& field, const LatticeBox& changed) {
+  SWARD_ASSERT(glm::ivec2(field.desc().columns, field.desc().rows) == samples_,
+               "the slope map was made from a field of another size");
+  if (changed.empty()) return;
+  // A central difference reads one sample to each side.
+  const int step = field.sample_step();
+  const glm::ivec2 first = glm::max(glm::max(changed.first, LatticePoint(0)) / step - 1, glm::ivec2(0));
+  const glm::ivec2 last = glm::min((changed.last + (step - 1)) / step + 1, samples_ - 1);
+  if (last.x < first.x || last.y < first.y) return;
+  const DefaultUnpack unpack;
+  write_slopes(slope_map_.id(), field, first, last);
 }
 
 }  // namespace sward::gl

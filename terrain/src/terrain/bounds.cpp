@@ -78,7 +78,7 @@ class BoundsBuilder {
  public:
   BoundsBuilder(const HeightField& field, Bounds& bounds)
       : field_(field),
-        stored_(bounds.stored_.data()),
+        stored_(bounds.stored_.get()),
         size_(field.root_squares() * (1 << field.root_bits()) + 1),
         data_(field.desc().columns, field.desc().rows),
         scale_(std::abs(field.desc().scale)),
@@ -222,7 +222,13 @@ void Bounds::adopt_layout(const HeightField& field) {
   step_bits_ = k_root_bits - field.root_bits();
   const glm::ivec2 size = field.root_squares() * (1 << field.root_bits()) + 1;
   stride_ = size.x;
-  stored_.assign(size_t(size.x) * size_t(size.y), k_nothing);
+  stored_count_ = size_t(size.x) * size_t(size.y);
+  stored_ = std::make_unique_for_overwrite<uint16_t[]>(stored_count_);
+  // The corners of root squares are no diamond's centre.
+  const int side = 1 << field.root_bits();
+  for (int row = 0; row < size.y; row += side)
+    for (int column = 0; column < size.x; column += side)
+      stored_[size_t(row) * size_t(size.x) + size_t(column)] = k_nothing;
 }
 
 // Level by level, those diamonds that depend on samples in the box: what a diamond reads lies within h of its centre.

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <system_error>
 
 #include "checksum.h"
@@ -24,8 +25,8 @@ constexpr uint64_t k_magic = 0x444e4257530001u;
 
 using Header = std::array<uint64_t, 5>;
 
-Header make_header(uint64_t fingerprint, const std::vector<uint16_t>& values) {
-  Header header{k_magic, fingerprint, values.size(), checksum(values.data(), values.size() * sizeof(uint16_t)), 0};
+Header make_header(uint64_t fingerprint, std::span<const uint16_t> values) {
+  Header header{k_magic, fingerprint, values.size(), checksum(values.data(), values.size_bytes()), 0};
   header[4] = checksum(header.data(), 4 * sizeof(uint64_t));
   return header;
 }
@@ -51,14 +52,14 @@ Expected<void> Bounds::save(const std::string& path) const {
   std::array<char, 32> suffix{};
   std::snprintf(suffix.data(), suffix.size(), ".%p.part", static_cast<const void*>(this));
   Temporary temporary{path + suffix.data()};
-  const Header header = make_header(field_->fingerprint(), stored_);
+  const Header header = make_header(field_->fingerprint(), {stored_.get(), stored_count_});
   std::ofstream file(temporary.path, std::ios::binary | std::ios::trunc);
   if (!file) {
     temporary.kept = true;
     return fail("cannot write bounds file '" + path + "': check that its folder exists and is writable");
   }
   file.write(reinterpret_cast<const char*>(header.data()), sizeof header);
-  file.write(reinterpret_cast<const char*>(stored_.data()), std::streamsize(memory()));
+  file.write(reinterpret_cast<const char*>(stored_.get()), std::streamsize(memory()));
   file.close();
   if (!file) return fail("cannot write all of bounds file '" + path + "': check the free space");
   std::error_code error;
@@ -78,14 +79,14 @@ Expected<Bounds> Bounds::load(const std::string& path, const HeightField& field)
 
   Bounds bounds;
   bounds.adopt_layout(field);
-  if (header[1] != field.fingerprint() || header[2] != bounds.stored_.size()) {
+  if (header[1] != field.fingerprint() || header[2] != bounds.stored_count_) {
     return damaged(path, "belongs to another height field");
   }
-  if (!file.read(reinterpret_cast<char*>(bounds.stored_.data()), std::streamsize(bounds.memory()))) {
+  if (!file.read(reinterpret_cast<char*>(bounds.stored_.get()), std::streamsize(bounds.memory()))) {
     return damaged(path, "is truncated");
   }
   if (file.peek() != std::ifstream::traits_type::eof()) return damaged(path, "is longer than it says");
-  if (header[3] != checksum(bounds.stored_.data(), bounds.memory())) return damaged(path, "is damaged");
+  if (header[3] != checksum(bounds.stored_.get(), bounds.memory())) return damaged(path, "is damaged");
   return bounds;
 }
 

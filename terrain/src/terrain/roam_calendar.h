@@ -34,7 +34,7 @@ class Calendar {
   void advance(double ticks) { now_ += std::min(ticks, 2.0 * k_span); }
   /// The tick at which something that holds for `ticks` more is to be looked at again; 0 when that is now.
   uint32_t tick_after(float ticks) const {
-    const uint32_t tick = uint32_t(now_ + double(std::clamp(ticks, 0.0f, float(k_span - 1))));
+    const uint32_t tick = uint32_t(now_ + double(ticks > 0 ? std::min(ticks, float(k_span - 1)) : 0.0f));
     return tick <= uint32_t(now_) || tick < read_ ? 0 : tick;
   }
   void enter(uint32_t node, uint32_t tick) {

@@ -92,6 +92,7 @@ Expected<RoamStats> RoamEngine::update(const View& view, std::optional<double> t
     operation_limit_ = 4 * (uint64_t(tree_.leaf_count()) + options_.max_triangles) + 1024;
     time_checks_ = leaf_guard_steps_ = diamond_guard_steps_ = 0;
     settled_ = converge();
+    release_more();
   }
   if (stats_.capped) still_since_ = tree_.vertices.now;
   draws_.close();
@@ -130,12 +131,7 @@ float RoamEngine::bound_px() const {
   for (const BucketQueue* queue : {&split_queue_, &blocked_queue_})
     if (const uint32_t node = queue->highest(state_); node != k_none) worst = std::max(worst, state_[node].key);
   if (!leaf_calendar_.empty()) worst = std::max(worst, leaf_guard_);
-  for (const Motion& motion : motions_) {
-    if (!lasts(motion)) continue;
-    for (const uint32_t half : {motion.node, tree_.neighbour[motion.node].base})
-      if (half != k_none && is_visible(half)) worst = std::max(worst, read(half).priority);
-  }
-  return worst;
+  return std::max(worst, moved_priority());
 }
 
 }  // namespace sward::roam

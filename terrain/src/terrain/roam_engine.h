@@ -49,7 +49,7 @@ class RoamEngine {
   /// Visible leaves that merge() would take away; negative when it brings more into sight than it removes.
   int merge_gain(uint32_t node) const;
 
-  /// A proven bound of the priorities of the visible leaves, and of the diamonds whose centres move.
+  /// At least the priorities of the visible leaves, and what they are off where their corners move.
   float bound_px() const;
   Expected<void> validate() const;
 
@@ -163,6 +163,8 @@ class RoamEngine {
   void shrink_to_budget();
   void give_up(uint32_t node);
   void trim_below_target();
+  void release_slowly();
+  void release_more();
   bool out_of_time();
   uint32_t decision_budget() const;
   int64_t decided_count() const { return int64_t(visible_count()) - falling_surplus_; }
@@ -181,12 +183,15 @@ class RoamEngine {
   void finish_falls_now();
   void finish_motions_now();
   void count_falling_surplus();
+  float moved_priority() const;
+  float moved_priority(uint32_t node, uint32_t vertex) const;
   bool centre_moves(uint32_t node) const {
     return !options_.plain && tree_.vertices.moves(tree_.corner[tree_.child[node]].apex);
   }
 
   // The surface: roam_surface.cpp.
   void read_surface_again();
+  void ask_again_what_splits();
   void collapse_forbidden(uint32_t node, const LatticeBox& box);
   void reread(uint32_t node, const LatticeBox& box);
   void look_again(uint32_t node);
@@ -199,6 +204,7 @@ class RoamEngine {
   double still_since_ = 0;     // the time of the last change of what is asked for
   Projection projection_;
   bool settled_ = false;       // the mesh is what view_ and options_ ask for
+  bool balanced_ = true;       // the largest priority left is where splitting and merging meet
   bool fresh_ = true;          // nothing is known of the nodes
   bool from_nothing_ = false;  // the mesh of this update has no past to move from
   RoamStats stats_;
@@ -266,6 +272,8 @@ class RoamEngine {
   uint32_t time_checks_ = 0;
   uint64_t operations_ = 0;
   uint64_t operation_limit_ = 0;
+  static constexpr uint64_t k_all_released = ~uint64_t(0);
+  uint64_t released_ = k_all_released;  // operations an update may take after parts of the surface were loaded
 };
 
 }  // namespace sward::roam

@@ -400,7 +400,7 @@ void RoamEngine::raise_diamond_guard(float limit) {
 
 // Keeps the guards at either side of the balance that the last update found, in steps that let little come due at once.
 void RoamEngine::follow_balance() {
-  if (options_.plain) return;
+  if (options_.plain || !balanced_) return;
   const uint32_t worst = split_queue_.highest(state_);
   const float highest = worst == k_none ? 0 : state_[worst].key;
   const float now = std::max(highest, options_.target_px);

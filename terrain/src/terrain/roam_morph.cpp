@@ -6,13 +6,19 @@
 // a falling diamond stand in the queues as the leaves that they are going to be, and falls are stopped half way when
 // they turn out to be worth splitting.
 //
-// Why the bound of a moving diamond's halves holds. Write the finest surface over a settled triangle T as T's plane
-// plus the sum over the splits k below it of h_k d_k: h_k in [0, 1] is the hat that split k raises, linear on all finer
-// triangles, d_k what it adds at its centre. The bound of T is at least the largest sum of |d_k| that meets at a point.
-// What is drawn is T's plane plus the sum of c_k d_k. At birth a vertex stands in the middle of its drawn neighbours,
-// so there c_k is the mean of theirs, which is at most the mean of h_k, which is h_k; moving mixes c_k with h_k (or,
-// falling, with 0); and linear interpolation keeps 0 <= c_k <= h_k on the whole triangle. So the difference is the sum
-// of (h_k - c_k) d_k, no more than the bound of T. The coarsest moving diamond above any point has settled corners.
+// Why bound_px() holds. A drawn triangle is flat between its three corners, which are drawn o_i above or below where
+// they stand on the surface. Over it the finest surface is at most the leaf's bound b above or below the plane through
+// the places where the corners are to stand; the drawn triangle is off that plane by the o_i, interpolated, which is at
+// most o, the largest |o_i|. So from what is drawn to the surface it is at most b + o. How a vertex came to be where it
+// is drawn, and what its neighbours do, does not matter.
+//
+// In pixels: with N and the depths w of roam_projection.h, C what a metre of height changes of the depth, points of one
+// vertical that stand f and g off the plane are N |f - g| / ((w + C f)(w + C g)) apart, which rises with |f - g|. For
+// o <= b that is greatest at f = b, g = -b: the priority of the leaf at rest, which the queues know. For o > b it is
+// N (b + o) / ((w - |C| o)(w + |C| b)): Projection::moved_priority(). At birth o is at most what the split adds, so
+// this is below the priority of the triangle that was split, and it falls from there.
+//
+// All triangles with a corner at a vertex lie in the diamond whose centre it is: a handful of leaves, four at first.
 #include <algorithm>
 
 #include "roam_engine.h"
@@ -89,6 +95,36 @@ bool RoamEngine::lasts(const Motion& motion) const {
   const VertexPool& v = tree_.vertices;
   return v.alive[motion.vertex] && v.moves(motion.vertex) && tree_.is_split(motion.node) &&
          tree_.corner[tree_.child[motion.node]].apex == motion.vertex;
+}
+
+// The largest over the visible leaves at `vertex`, a corner of `node`, whose other corners are drawn no farther off.
+float RoamEngine::moved_priority(uint32_t node, uint32_t vertex) const {
+  if (!is_visible(node)) return 0;
+  const Corners& c = tree_.corner[node];
+  if (!tree_.is_leaf(node)) {
+    const uint32_t child = tree_.child[node];
+    if (vertex == c.left) return moved_priority(child, vertex);
+    if (vertex == c.right) return moved_priority(child + 1, vertex);
+    return std::max(moved_priority(child, vertex), moved_priority(child + 1, vertex));
+  }
+  const float off = tree_.vertices.off_surface(vertex);
+  if (off <= c.bound) return 0;
+  for (const uint32_t corner : {c.apex, c.left, c.right})
+    if (tree_.vertices.off_surface(corner) > off) return 0;
+  return projection_.moved_priority(wedgie_[node], off);
+}
+
+float RoamEngine::moved_priority() const {
+  float worst = 0;
+  for (const Motion& motion : motions_) {
+    if (!lasts(motion)) continue;
+    for (const uint32_t half : {motion.node, tree_.neighbour[motion.node].base}) {
+      if (half == k_none) continue;
+      for (uint32_t child = tree_.child[half]; child <= tree_.child[half] + 1; ++child)
+        worst = std::max(worst, moved_priority(child, motion.vertex));
+    }
+  }
+  return worst;
 }
 
 // Motions that are over, or whose diamond is gone.

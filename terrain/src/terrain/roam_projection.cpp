@@ -126,6 +126,29 @@ std::array<bool, Projection::k_together> Projection::out(std::span<const Wedgie*
   return {f.outside[0] < 0, f.outside[1] < 0, f.outside[2] < 0, f.outside[3] < 0};
 }
 
+void Projection::measure_thickness(Four& f) const {
+  for (int i = 0; i < 3; ++i) {
+    f.x[i] = form_[Forms::k_x].at(f.px[i], f.py[i], f.pz[i]);
+    f.y[i] = form_[Forms::k_y].at(f.px[i], f.py[i], f.pz[i]);
+    f.w[i] = form_[Forms::k_w].at(f.px[i], f.py[i], f.pz[i]);
+  }
+  f.square = larger(f.x[0] * f.x[0] + f.y[0] * f.y[0],
+                    larger(f.x[1] * f.x[1] + f.y[1] * f.y[1], f.x[2] * f.x[2] + f.y[2] * f.y[2]));
+  f.nearest = smaller(f.w[0], smaller(f.w[1], f.w[2]));
+}
+
+float Projection::moved_priority(const Wedgie& wedgie, float offset) const {
+  const Wedgie* const one = &wedgie;
+  Four f = place({&one, 1});
+  measure_sides(f);
+  if (f.outside[0] < 0) return 0;
+  measure_thickness(f);
+  const float nearest = f.nearest[0], near_inside = f.near_inside[0] - (offset - wedgie.bound) * reach_.side(4);
+  const float above = nearest - offset * depth_per_metre_, below = nearest + wedgie.bound * depth_per_metre_;
+  if (near_inside < 0 || above <= 0 || above * below <= 0) return RoamMesh::k_artificial_max;
+  return cap((wedgie.bound + offset) * std::sqrt(f.square[0]) / (above * below));
+}
+
 Lanes Projection::priority(const Four& f) const {
   const Lanes reach = f.bound * depth_per_metre_;
   const Lanes denominator = (f.nearest - reach) * (f.nearest + reach);
@@ -277,14 +300,7 @@ void Projection::read(std::span<const Wedgie* const> wedgies, const Deferral& de
   Lanes p = f.outside < 0.0f ? all(-1) : all(0);
   Lanes below = all(0), above = all(0), leaves = all(0), range;
   if (wanted != k_outside) {
-    for (int i = 0; i < 3; ++i) {
-      f.x[i] = form_[Forms::k_x].at(f.px[i], f.py[i], f.pz[i]);
-      f.y[i] = form_[Forms::k_y].at(f.px[i], f.py[i], f.pz[i]);
-      f.w[i] = form_[Forms::k_w].at(f.px[i], f.py[i], f.pz[i]);
-    }
-    f.square = larger(f.x[0] * f.x[0] + f.y[0] * f.y[0],
-                      larger(f.x[1] * f.x[1] + f.y[1] * f.y[1], f.x[2] * f.x[2] + f.y[2] * f.y[2]));
-    f.nearest = smaller(f.w[0], smaller(f.w[1], f.w[2]));
+    measure_thickness(f);
     p = priority(f);
     const Change c = change_of(f, deferral.units);
     range = c.range;

@@ -107,11 +107,17 @@ class Projection {
   /// Motion so far, from the view of `before` within so many ticks: it is expected to go on.
   void expect(const Projection& before, double ticks);
 
+  /// The largest distance in pixels between a drawn triangle, whose corners are up to `offset` metres from where the
+  /// wedgie has them, and the surface within that, where offset > its bound. The artificial maximum when either may
+  /// cross the near plane; 0 when the wedgie is out.
+  float moved_priority(const Wedgie& wedgie, float offset) const;
+
  private:
   struct Four;
   struct Change;
   Four place(std::span<const Wedgie* const> wedgies) const;
   void measure_sides(Four& four) const;
+  void measure_thickness(Four& four) const;
   Lanes priority(const Four& four) const;
   Change change_of(const Four& four, const TickUnits& units) const;
   Lanes below_ticks(const Four& four, const Change& change, Lanes priority, const Deferral& deferral) const;
@@ -124,6 +130,8 @@ class Projection {
       out.lane[i] = form_x_.lane[i] * p.x + form_y_.lane[i] * p.y + form_z_.lane[i] * p.z + form_1_.lane[i];
     return out;
   }
+  // What single precision does not hold (matrices of 1e30 and the like) counts as the largest.
+  static float cap(float pixels) { return pixels < RoamMesh::k_artificial_max ? pixels : RoamMesh::k_artificial_max; }
   static float thickness(const Forms& a, const Forms& b, const Forms& c) {
     return std::sqrt(std::max(a.square(), std::max(b.square(), c.square())));
   }
@@ -132,7 +140,7 @@ class Projection {
     const float depth_reach = bound * depth_per_metre_;
     const float denominator = (w - depth_reach) * (w + depth_reach);
     if (!inside_near || w <= depth_reach || denominator <= 0) return RoamMesh::k_artificial_max;
-    return std::min(2 * bound * thickness / denominator, RoamMesh::k_artificial_max);
+    return cap(2 * bound * thickness / denominator);
   }
 
   glm::dvec3 eye_{0};

@@ -137,14 +137,16 @@ Reading RoamEngine::plain_reading(uint32_t node) const {
   return reading;
 }
 
-// False when there is more to do: the time cap, or triangles on their way out, ended it. The clock is first read after
-// some operations, so that every update makes progress.
+// False when there is more to do: the time cap, what loaded squares set free, or triangles on their way out ended it.
+// The clock is first read after some operations, so that every update makes progress.
 bool RoamEngine::converge() {
   hidden_merges_left_ = options_.plain ? ~0u : k_hidden_merges + visible_count() / k_hidden_merges_divisor;
+  balanced_ = true;
   shrink_to_budget();
   while (operations_ < operation_limit_) {
-    if (out_of_time()) {
+    if (out_of_time() || operations_ >= released_) {
       stats_.capped = true;
+      balanced_ = false;
       return false;
     }
     const uint32_t worst = worst_leaf();
@@ -154,7 +156,10 @@ bool RoamEngine::converge() {
     }
     const bool falls = !tree_.is_leaf(worst);
     const Room room = falls ? room_for_stop(worst) : room_for(tree_.forced_chain(worst));
-    if (room == Room::later) return false;
+    if (room == Room::later) {
+      balanced_ = false;
+      return false;
+    }
     if (room == Room::full) {
       if (!make_room(worst)) return motions_.empty() && hidden_merges_left_ > 0;
     } else if (falls) {
@@ -283,6 +288,18 @@ void RoamEngine::trim_below_target() {
     if (int64_t(visible_count()) - merge_gain(victim) > int64_t(options_.max_triangles)) return;
     give_up(victim);
   }
+}
+
+// A square that arrives sets thousands of splits free at once. So many operations a frame does the mesh follow with;
+// the number grows from frame to frame, so that it gets there however fast the view changes meanwhile.
+void RoamEngine::release_slowly() {
+  constexpr uint64_t k_least = 256, k_share = 64;
+  if (released_ == k_all_released && !from_nothing_ && !options_.plain) released_ = k_least + visible_count() / k_share;
+}
+
+void RoamEngine::release_more() {
+  constexpr uint64_t k_growth = 8;
+  released_ = operations_ >= released_ ? released_ + released_ / k_growth : k_all_released;
 }
 
 bool RoamEngine::out_of_time() {

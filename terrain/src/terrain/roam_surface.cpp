@@ -32,7 +32,10 @@ void RoamEngine::read_surface_again() {
   for (const Change& change : changes_) {
     if (change.box.empty()) continue;
     for (uint32_t root = 0; root < tree_.root_count(); ++root) collapse_forbidden(root, change.box);
-    if (!change.heights) continue;
+    if (!change.heights) {
+      release_slowly();
+      continue;
+    }
     visits_.clear();
     for (uint32_t root = 0; root < tree_.root_count(); ++root) reread(root, change.box);
     // Only now all that a node may lead to is known.
@@ -40,11 +43,19 @@ void RoamEngine::read_surface_again() {
   }
   changes_.clear();
   settled_ = false;
-  // What could not be split may be by now.
-  if (options_.plain) return;
+  ask_again_what_splits();
+}
+
+// What could not be split may be by now, and what could may not. Leaves in calendars are asked when they come due.
+void RoamEngine::ask_again_what_splits() {
+  if (options_.plain) return look_at_all();
   visits_.clear();
   for (uint32_t node = 0; (node = blocked_queue_.highest(state_)) != k_none; visits_.push_back({node, 0}))
     unplace(node);
+  for (const uint32_t node : hot_leaves_) {
+    const bool alive = node < tree_.size() && tree_.is_alive(node);
+    if (alive && tree_.is_leaf(node) && state_[node].queued()) visits_.push_back({node, 0});
+  }
   for (const Visit& visit : visits_) place(visit.node, read(visit.node));
 }
 

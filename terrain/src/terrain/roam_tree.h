@@ -7,6 +7,7 @@
 #include <sward/terrain/surface.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -60,6 +61,10 @@ class VertexPool {
     if (m.seconds <= 0) return points[slot].world.z;
     const double t = std::clamp((now - m.start) / double(m.seconds), 0.0, 1.0);
     return m.from_z + t * (m.to_z - m.from_z);
+  }
+  /// How far that is from where the surface is, metres.
+  float off_surface(uint32_t slot) const {
+    return moves(slot) ? float(std::abs(drawn_z(slot) - points[slot].world.z)) : 0.0f;
   }
   /// The point that is drawn now.
   glm::dvec3 drawn(uint32_t slot) const { return {glm::dvec2(points[slot].world), drawn_z(slot)}; }

@@ -31,6 +31,7 @@ class Validator {
       if (!fault_.empty()) return fail(fault_);
     }
     check_counts();
+    check_motions();
     if (!fault_.empty()) return fail(fault_);
     return {};
   }
@@ -50,6 +51,9 @@ class Validator {
                              t_.surface().height(t_.vertices.lattice[slot]));
       require(world == t_.vertices.points[slot].world, node, "has a vertex off the height field");
     }
+    const bool padding = t_.nodes[node].cover == Cover::padding;
+    const float bound = padding ? -1.0f : t_.surface().bound(centre_of(actual), t_.nodes[node].id.level());
+    require(t_.corner[node].bound == bound, node, "has a bound other than the surface's");
     const uint32_t parent = t_.nodes[node].parent;
     if (parent == k_none) {
       require(node < t_.root_count(), node, "has no parent and is no root");
@@ -213,6 +217,15 @@ class Validator {
     require(e_.split_queue_.size() + e_.blocked_queue_.size() == queued_leaves_, 0, "the split queue's size is wrong");
     require(e_.merge_queue_.size() == mergeable_, 0, "the merge queue's size is wrong");
     require(!e_.settled_ || visible_ <= e_.options_.max_triangles, 0, "the budget is exceeded");
+  }
+
+  // bound_px() finds what moves by the list of motions.
+  void check_motions() {
+    std::vector<bool> listed(t_.vertices.lattice.size());
+    for (const auto& motion : e_.motions_)
+      if (e_.lasts(motion)) listed[motion.vertex] = true;
+    for (uint32_t vertex = 0; vertex < listed.size(); ++vertex)
+      require(listed[vertex] || !t_.vertices.alive[vertex] || !t_.vertices.moves(vertex), 0, "lost a motion");
   }
 
   const RoamEngine& e_;

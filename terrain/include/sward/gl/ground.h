@@ -13,8 +13,15 @@ namespace sward::gl {
 class GroundTextures {
  public:
   /// Uploads copies; the arguments may go away afterwards. Fails when a map exceeds the device's texture size or the
-  /// base map does not validate. Filters are anisotropic where the device has that in hardware. Leaves all state as it was. Cost: a few hundred ms for maps of 8192 x 8192.
+  /// base map does not validate. Filters are anisotropic where the device has that in hardware. Leaves all state as it
+  /// was. Cost: a few hundred ms for maps of 8192 x 8192.
   static Expected<GroundTextures> create(const HeightField& field, const ColorMap& colors);
+
+  /// Takes the slopes of an edited field anew, where `changed` (EditResult::changed) is; then the map is what create()
+  /// would make of the field now. `field` has the size that it was made from (asserted). Leaves all state as it was.
+  /// Cost: that of the area, and once the GPU's for the map's mip levels: a few tenths of a millisecond for 4097 x
+  /// 4097.
+  void update_slopes(const HeightField& field, const LatticeBox& changed);
 
   GLuint base_map() const { return base_map_.id(); }          ///< SRGB8_ALPHA8, trilinear, clamped
   GLuint base_map_raw() const { return base_map_raw_.id(); }  ///< RGBA8 view, level 0, for texelFetch
@@ -30,7 +37,7 @@ class GroundTextures {
  private:
   Texture base_map_, base_map_raw_, slope_map_;
   glm::dvec2 map_min_{0}, map_size_{1}, field_min_{0}, field_size_{1}, data_min_{0}, data_max_{0};
-  glm::ivec2 texels_{1};
+  glm::ivec2 texels_{1}, samples_{1};
 };
 
 }  // namespace sward::gl

@@ -4,8 +4,8 @@
 
 #include <sward/terrain/height_field.h>
 #include <cstdint>
+#include <memory>
 #include <string>
-#include <vector>
 
 namespace sward {
 
@@ -38,7 +38,7 @@ class Bounds {
 
   const HeightField& field() const { return *field_; }
   /// Bytes held.
-  size_t memory() const { return stored_.size() * sizeof(uint16_t); }
+  size_t memory() const { return stored_count_ * sizeof(uint16_t); }
 
   /// The 16-bit format: the smallest representable number >= metres (>= 0).
   static uint16_t encode_up(float metres);
@@ -56,7 +56,9 @@ class Bounds {
   int step_bits_ = 0;  // log2 of lattice units between samples
   int data_level_ = 0;
   int max_level_ = 0;
-  std::vector<uint16_t> stored_;  // by sample, padding included
+  // By sample, padding included. Not a vector: memory is first touched by the threads that compute it.
+  std::unique_ptr<uint16_t[]> stored_;
+  size_t stored_count_ = 0;
 };
 
 }  // namespace sward

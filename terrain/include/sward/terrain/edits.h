@@ -52,7 +52,8 @@ struct EditResult {
 
 /// Changes samples of the field in place and re-computes relief and bounds around them, so that both are, bit by bit,
 /// those of the edited samples. `bounds` is the field's (asserted). Neither may be in use meanwhile, by queries or by
-/// mesh updates; afterwards hand `changed` to every mesh, and upload again what was made from the field's slopes.
+/// mesh updates; afterwards hand `changed` to every mesh (RoamMesh::surface_changed()), and to what was made from the
+/// field's slopes (gl::GroundTextures::update_slopes()).
 ///
 /// 16-bit fields stay 16-bit: heights are rounded to whole raw units and clamped to what the format holds, because a
 /// conversion would double the memory and change heights that were not edited; `clamped` tells. Holes stay holes; what

@@ -35,7 +35,7 @@ struct RoamStats {
   uint32_t merges = 0;
   uint32_t looked_at = 0;  ///< Nodes whose wedgie was projected anew.
   uint32_t moving = 0;     ///< Vertices between two heights.
-  bool capped = false;     ///< The time cap ended the update early.
+  bool capped = false;     ///< Ended early: the time cap, or much that a loaded square set free. Later updates go on.
 };
 
 /// A vertex as the GPU gets it, relative to RoamMesh::origin(). Slots are stable while the vertex lives.
@@ -70,16 +70,18 @@ class RoamMesh {
   /// mesh there.
   void surface_changed(const LatticeBox& box);
   /// Only what can be split has changed within the box (a world has loaded or dropped a part): in the next update
-  /// splits that are not allowed any more are undone, and leaves that could not be split are tried again.
+  /// splits that are not allowed any more are undone, and leaves that could not be split are tried again. What is set
+  /// free is split over several updates: an update then changes some per cent of the mesh, and more in each that
+  /// follows until the mesh is what its view asks for. A count, not a clock: the same in every run.
   void residency_changed(const LatticeBox& box);
 
   /// Changes the budget or the target; takes effect at the next update. Fails as create does.
   Expected<void> set_options(const RoamOptions& options);
   const RoamOptions& options() const;
 
-  /// Proven bound of the projected error over the visible leaves of the last update, pixels; k_artificial_max when a
-  /// wedgie crosses the near plane. While vertices move it is that of the coarsest triangles they come from. Cost: some
-  /// 0.1 microseconds a moving vertex.
+  /// Proven bound of the projected error of what the last update draws, over its visible leaves, pixels: the thickness
+  /// of their wedgies, and for those whose corners move the distance to the surface that these have left as well.
+  /// k_artificial_max when a wedgie crosses the near plane. Cost: some half a microsecond a moving vertex.
   float bound_px() const;
   static constexpr float k_artificial_max = 1.0e9f;
 
