@@ -76,6 +76,7 @@ inline sward::RoamOptions read_options(Input& in) {
   options.hysteresis = float(in.unit() * 0.2);
   options.target_px = in.byte() % 4 == 0 ? float(in.unit() * 40) : 0;
   options.time_cap_s = in.byte() % 8 == 0 ? 1e-9 : 0;
+  options.plain = in.byte() % 16 == 0;
   return options;
 }
 
@@ -90,10 +91,64 @@ uint32_t find_node(const sward::roam::RoamTree& tree, uint32_t start, Wanted&& w
   return sward::roam::k_none;
 }
 
+inline sward::NamedPoint read_point(Input& in, const sward::Lattice& field) {
+  const glm::dvec2 low = field.min_corner(), high = field.max_corner();
+  sward::NamedPoint point{in.byte() % 12u, {in.between(low.x, high.x), in.between(low.y, high.y)}};
+  point.tolerance_m = in.byte() % 4 * 0.5;
+  const uint8_t odd = in.byte();
+  if (odd == 255) point.xy.x = in.any_double();
+  if (odd == 254) point.tolerance_m = in.any_double();
+  if (odd >= 230 && odd < 240) point.xy.x = high.x;
+  if (odd >= 220 && odd < 235) point.xy.y = low.y;
+  // On vertices and edges.
+  if (odd < 64) point.xy = field.world_xy(sward::LatticePoint(field.from_world(point.xy)) / 4096 * 4096);
+  return point;
+}
+
+inline sward::NamedLine read_line(Input& in, const sward::Lattice& field) {
+  const glm::dvec2 low = field.min_corner(), high = field.max_corner();
+  const auto end = [&] {
+    return glm::dvec3(in.between(low.x - 50, high.x + 50), in.between(low.y - 50, high.y + 50), in.between(-150, 200));
+  };
+  sward::NamedLine line{in.byte() % 12u, end(), end()};
+  const uint8_t odd = in.byte();
+  if (odd == 255) line.to.z = in.any_double();
+  if (odd == 254) line.from.x = in.any_double();
+  if (odd < 16) line.to = line.from;
+  if (odd >= 16 && odd < 32) line.to.x = line.from.x;
+  return line;
+}
+
+// Adds, moves, removes named things, or hands the set to the mesh or takes it away.
+inline void name_things(Input& in, sward::roam::RoamEngine& engine, sward::HostPriorities& named) {
+  const sward::Lattice& field = engine.tree().lattice();
+  switch (in.byte() % 8) {
+    case 0:
+      return engine.set_priorities(in.byte() % 4 == 0 ? nullptr : &named);
+    case 1:
+      return (void)named.remove(in.byte() % 12u);
+    case 2:
+      if (in.byte() % 4 == 0) named.clear();
+      return;
+    case 3:
+    case 4: {
+      const sward::NamedPoint point = read_point(in, field);
+      return (void)(named.contains(point.id) ? named.move(point) : named.add(point));
+    }
+    default: {
+      const sward::NamedLine line = read_line(in, field);
+      return (void)(named.contains(line.id) ? named.move(line) : named.add(line));
+    }
+  }
+}
+
 /// One operation; what it did wrong, or nothing.
-inline std::string step(Input& in, sward::roam::RoamEngine& engine, double& clock) {
+inline std::string step(Input& in, sward::roam::RoamEngine& engine, sward::HostPriorities& named, double& clock) {
   const sward::roam::RoamTree& tree = engine.tree();
-  switch (in.byte() % 7) {
+  switch (in.byte() % 8) {
+    case 7:
+      name_things(in, engine, named);
+      return "";
     case 0:
       (void)engine.set_options(read_options(in));
       return "";
@@ -140,10 +195,12 @@ inline std::string run(std::span<const uint8_t> bytes) {
   Input in(bytes);
   const roam_support::Terrain& terrain = terrain_of_kind(in.byte());
   const sward::FieldSurface surface(*terrain.bounds);
+  sward::HostPriorities named(surface.lattice());
   sward::roam::RoamEngine engine(surface, {});
+  engine.set_priorities(&named);
   double clock = 0;
   while (!in.empty()) {
-    if (std::string fault = step(in, engine, clock); !fault.empty()) return fault;
+    if (std::string fault = step(in, engine, named, clock); !fault.empty()) return fault;
     if (const auto valid = engine.validate(); !valid) return valid.error().message;
   }
   return "";

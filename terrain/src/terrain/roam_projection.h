@@ -50,7 +50,8 @@ struct alignas(64) Wedgie {
   float bound = -1;                   ///< Metres; negative in the padding.
   uint32_t due = 0;                   ///< Tick or mark at which the node is looked at again; 0: no such time.
   uint32_t diamond_due = 0;           ///< The same for the diamond that the node stands for.
-  uint32_t lingers = 0;               ///< The list of what lingers that the node was noted in last.
+  uint32_t lingers : 31 = 0;          ///< The list of what lingers that the node was noted in last.
+  uint32_t claimed : 1 = 0;           ///< A named thing wants it split: in sight its priority is the artificial one.
 
   void place(glm::dvec3 a, glm::dvec3 left, glm::dvec3 right, float its_bound) {
     apex = a;
@@ -132,7 +133,9 @@ class Projection {
     const float depth_reach = bound * depth_per_metre_;
     const float denominator = (w - depth_reach) * (w + depth_reach);
     if (!inside_near || w <= depth_reach || denominator <= 0) return RoamMesh::k_artificial_max;
-    return std::min(2 * bound * thickness / denominator, RoamMesh::k_artificial_max);
+    const float pixels = 2 * bound * thickness / denominator;
+    // Not a number, too, where a projection's own numbers are too large for single precision.
+    return pixels < RoamMesh::k_artificial_max ? pixels : RoamMesh::k_artificial_max;
   }
 
   glm::dvec3 eye_{0};
