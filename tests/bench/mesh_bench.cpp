@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT
 
 // One table about the mesh: plain against deferred in one process, a still camera, sizes of the data, many triangles,
-// slots written, bounds on threads, several views at once. An update includes copying changed vertices and triangles
-// into arrays, as for an upload. Frames are the minimum of three runs, in CPU time of the thread.
-//   bench_mesh [plain] [sizes] [million] [bounds] [views]      (nothing: all; sizes needs 3 GB)
+// slots written, bounds on threads, several views at once, objects named by the host. An update includes copying
+// changed vertices and triangles into arrays, as for an upload. Frames are the minimum of three runs, in CPU time of
+// the thread.
+//   bench_mesh [plain] [sizes] [million] [bounds] [views] [named]      (nothing: all; sizes needs 3 GB)
 #include <sward/terrain/many_views.h>
 
 #include <algorithm>
@@ -165,6 +166,90 @@ void several_views() {
   std::printf("eight views of 20 000: one thread %.2f ms, two %.2f ms, ratio %.2f\n", ms[0], ms[1], ms[0] / ms[1]);
 }
 
+struct Object {
+  glm::dvec2 start, velocity;
+};
+
+// From 50 m to 4 km ahead of where the flight begins, driving about at 20 m/s.
+std::vector<Object> objects(size_t count) {
+  std::vector<Object> all;
+  roam_support::Random random(1);
+  const sward::View view = flight::low_view(0);
+  const glm::dvec2 ahead = glm::normalize(glm::dvec2(glm::transpose(view.eye_from_world)[2])) * -1.0;
+  for (size_t i = 0; i < count; ++i) {
+    const double distance = 50 * std::pow(80.0, random.uniform(0, 1)), side = distance * random.uniform(-0.5, 0.5);
+    const double heading = random.uniform(0, 6.3);
+    all.push_back({glm::dvec2(view.eye) + distance * ahead + side * glm::dvec2(ahead.y, -ahead.x),
+                   20.0 * glm::dvec2(std::cos(heading), std::sin(heading))});
+  }
+  return all;
+}
+
+sward::NamedPoint object_at(const Object& object, uint64_t id, double seconds) {
+  return {id, object.start + seconds * object.velocity};
+}
+
+// From 2 m above one object to 2 m above another.
+sward::NamedLine line_at(const Object& from, const Object& to, uint64_t id, double seconds) {
+  const auto end = [&](const Object& object) {
+    const glm::dvec2 xy = object.start + seconds * object.velocity;
+    return glm::dvec3(xy, flight::terrain().field->height(xy) + 2);
+  };
+  return {id, end(from), end(to)};
+}
+
+struct Named {
+  size_t objects = 0, lines = 0;
+  bool drive = false;
+};
+
+struct NamedCost {
+  double ms = 0;  // mean of an update
+  uint32_t unmet = 0;
+};
+
+// Over the low flight.
+NamedCost fly_with(const Named& what) {
+  constexpr int k_frames = 300;
+  const std::vector<Object> all = objects(2 * std::max(what.objects, what.lines));
+  std::vector<double> ms(k_frames, 1e9);
+  NamedCost cost;
+  for (int run = 0; run < k_runs; ++run) {
+    sward::HostPriorities named(flight::terrain().field->lattice());
+    auto mesh = sward::RoamMesh::create(*flight::terrain().bounds, budget(50000));
+    (void)mesh->set_priorities(&named);
+    for (int frame = -k_warm; frame < k_frames; ++frame) {
+      const sward::View view = flight::low_view(frame + k_warm);
+      const bool first = frame == -k_warm;
+      const double start = flight::thread_ms(), seconds = what.drive ? (frame + k_warm) / 60.0 : 0;
+      for (size_t i = 0; (first || what.drive) && i < what.objects; ++i) {
+        const sward::NamedPoint point = object_at(all[i], i, seconds);
+        (void)(first ? named.add(point) : named.move(point));
+      }
+      for (size_t i = 0; (first || what.drive) && i < what.lines; ++i) {
+        const sward::NamedLine line = line_at(all[2 * i], all[2 * i + 1], i, seconds);
+        (void)(first ? named.add(line) : named.move(line));
+      }
+      const auto stats = mesh->update(view, frame / 60.0);
+      cost.unmet = std::max(cost.unmet, stats->unmet);
+      if (frame >= 0) ms[size_t(frame)] = std::min(ms[size_t(frame)], flight::thread_ms() - start);
+    }
+  }
+  cost.ms = flight::mean(ms);
+  return cost;
+}
+
+void named_things() {
+  const double none = fly_with({}).ms;
+  std::printf("50 000 triangles, nothing named: %.3f ms\n", none);
+  for (const Named what : {Named{100, 0}, Named{1000, 0}, Named{0, 20}}) {
+    const NamedCost still = fly_with({what.objects, what.lines, false}),
+                    driven = fly_with({what.objects, what.lines, true});
+    std::printf("%zu objects, %zu lines of sight: standing %+.3f ms, moving in each frame %+.3f ms, unmet %u\n",
+                what.objects, what.lines, still.ms - none, driven.ms - none, std::max(still.unmet, driven.unmet));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -180,4 +265,5 @@ int main(int argc, char** argv) {
   if (wanted("million")) print("deferred, 1 000 000", fly(flight::terrain(), budget(1000000), 100, 1));
   if (wanted("bounds")) bounds_on_threads();
   if (wanted("views")) several_views();
+  if (wanted("named")) named_things();
 }

@@ -72,6 +72,7 @@ inline sward::RoamOptions read_options(Input& in) {
   options.hysteresis = float(in.unit() * 0.2);
   options.target_px = in.byte() % 4 == 0 ? float(in.unit() * 40) : 0;
   options.time_cap_s = in.byte() % 8 == 0 ? 1e-9 : 0;
+  options.plain = in.byte() % 16 == 0;
   return options;
 }
 
@@ -91,9 +92,13 @@ struct Scene {
   roam_support::Terrain terrain;
   PartlyResident surface;
   sward::roam::RoamEngine engine;
+  sward::HostPriorities named;
   double clock = 0;
 
-  explicit Scene(int kind) : terrain(make_terrain_of_kind(kind)), surface(*terrain.bounds), engine(surface, {}) {}
+  explicit Scene(int kind)
+      : terrain(make_terrain_of_kind(kind)), surface(*terrain.bounds), engine(surface, {}), named(surface.lattice()) {
+    engine.set_priorities(&named);
+  }
 };
 
 inline std::string check_budget(const sward::roam::RoamEngine& engine) {
@@ -178,6 +183,57 @@ inline std::string edit_ground(Input& in, Scene& scene) {
   return check_budget(scene.engine);
 }
 
+inline sward::NamedPoint read_point(Input& in, const sward::Lattice& field) {
+  const glm::dvec2 low = field.min_corner(), high = field.max_corner();
+  sward::NamedPoint point{in.byte() % 12u, {in.between(low.x, high.x), in.between(low.y, high.y)}};
+  point.tolerance_m = in.byte() % 4 * 0.5;
+  const uint8_t odd = in.byte();
+  if (odd == 255) point.xy.x = in.any_double();
+  if (odd == 254) point.tolerance_m = in.any_double();
+  if (odd >= 230 && odd < 240) point.xy.x = high.x;
+  if (odd >= 220 && odd < 235) point.xy.y = low.y;
+  // On vertices and edges.
+  if (odd < 64) point.xy = field.world_xy(sward::LatticePoint(field.from_world(point.xy)) / 4096 * 4096);
+  return point;
+}
+
+inline sward::NamedLine read_line(Input& in, const sward::Lattice& field) {
+  const glm::dvec2 low = field.min_corner(), high = field.max_corner();
+  const auto end = [&] {
+    return glm::dvec3(in.between(low.x - 50, high.x + 50), in.between(low.y - 50, high.y + 50), in.between(-150, 200));
+  };
+  sward::NamedLine line{in.byte() % 12u, end(), end()};
+  const uint8_t odd = in.byte();
+  if (odd == 255) line.to.z = in.any_double();
+  if (odd == 254) line.from.x = in.any_double();
+  if (odd < 16) line.to = line.from;
+  if (odd >= 16 && odd < 32) line.to.x = line.from.x;
+  return line;
+}
+
+// Adds, moves, removes named things, or hands the set to the mesh or takes it away.
+inline void name_things(Input& in, sward::roam::RoamEngine& engine, sward::HostPriorities& named) {
+  const sward::Lattice& field = engine.tree().lattice();
+  switch (in.byte() % 8) {
+    case 0:
+      return engine.set_priorities(in.byte() % 4 == 0 ? nullptr : &named);
+    case 1:
+      return (void)named.remove(in.byte() % 12u);
+    case 2:
+      if (in.byte() % 4 == 0) named.clear();
+      return;
+    case 3:
+    case 4: {
+      const sward::NamedPoint point = read_point(in, field);
+      return (void)(named.contains(point.id) ? named.move(point) : named.add(point));
+    }
+    default: {
+      const sward::NamedLine line = read_line(in, field);
+      return (void)(named.contains(line.id) ? named.move(line) : named.add(line));
+    }
+  }
+}
+
 /// One operation; what it did wrong, or nothing.
 inline std::string step(Input& in, Scene& scene) {
   sward::roam::RoamEngine& engine = scene.engine;
@@ -186,7 +242,7 @@ inline std::string step(Input& in, Scene& scene) {
     const std::string fault = check_budget(engine);
     return fault.empty() && !scene.surface.present().all() ? check_residency(scene) : fault;
   };
-  switch (in.byte() % 9) {
+  switch (in.byte() % 10) {
     case 0:
       (void)engine.set_options(read_options(in));
       return "";
@@ -211,6 +267,9 @@ inline std::string step(Input& in, Scene& scene) {
       return merge_some_diamond(in, engine);
     case 7:
       change_residency(in, scene);
+      return "";
+    case 8:
+      name_things(in, engine, scene.named);
       return "";
     default:
       return edit_ground(in, scene);

@@ -82,10 +82,12 @@ Expected<RoamStats> RoamEngine::update(const View& view, std::optional<double> t
     settled_ = false;
   }
   new_to_rest_ = new_view && !options_.plain;
-  if (!changes_.empty()) {
+  const bool surface_changed = !changes_.empty();
+  if (surface_changed) {
     still_since_ = tree_.vertices.now;
     read_surface_again();
   }
+  follow_claims(surface_changed);
   finish_motions();
   if (!settled_) {
     operations_ = 0;
@@ -99,6 +101,7 @@ Expected<RoamStats> RoamEngine::update(const View& view, std::optional<double> t
   stats_.visible = visible_count();
   stats_.leaves = tree_.leaf_count();
   stats_.moving = tree_.vertices.moving;
+  stats_.unmet = unmet_claims();
   return stats_;
 }
 
@@ -128,8 +131,7 @@ void RoamEngine::merge(uint32_t node) {
 
 float RoamEngine::bound_px() const {
   float worst = 0;
-  for (const BucketQueue* queue : {&split_queue_, &blocked_queue_})
-    if (const uint32_t node = queue->highest(state_); node != k_none) worst = std::max(worst, state_[node].key);
+  for (const BucketQueue* queue : {&split_queue_, &blocked_queue_}) worst = std::max(worst, bound_of(*queue));
   if (!leaf_calendar_.empty()) worst = std::max(worst, leaf_guard_);
   return std::max(worst, moved_priority());
 }

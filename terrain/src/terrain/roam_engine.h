@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "roam_calendar.h"
+#include "roam_claims.h"
 #include "roam_draws.h"
 #include "roam_projection.h"
 #include "roam_queue.h"
@@ -39,6 +40,9 @@ class RoamEngine {
   const RoamOptions& options() const { return options_; }
   void surface_changed(const LatticeBox& box) { changes_.push_back({box, true}); }
   void residency_changed(const LatticeBox& box) { changes_.push_back({box, false}); }
+
+  /// Must outlive its use; null: none. Takes effect at the next update.
+  void set_priorities(const HostPriorities* priorities) { claims_.attach(priorities); }
 
   /// Splits a leaf after the leaves that it forces; the number of diamonds split. Does not look at the budget.
   uint32_t split(uint32_t leaf);
@@ -78,6 +82,19 @@ class RoamEngine {
     const Wedgie* wedgies[Projection::k_together] = {};
     for (size_t i = 0; i < nodes.size(); ++i) wedgies[i] = &wedgie_[nodes[i]];
     projection_.read({wedgies, nodes.size()}, {units_, leaf_guard_, diamond_guard_}, wanted, readings);
+    // What is claimed has the artificial priority and is looked at in every update.
+    for (size_t i = 0; i < nodes.size(); ++i) {
+      if (!wedgies[i]->claimed || readings[i].out()) continue;
+      readings[i].priority = RoamMesh::k_artificial_max;
+      readings[i].below = readings[i].above = 0;
+    }
+  }
+  /// Of one node, as if nothing claimed it.
+  Reading measure(uint32_t node) const {
+    const Wedgie* wedgie = &wedgie_[node];
+    Reading reading;
+    projection_.read({&wedgie, 1}, {units_, leaf_guard_, diamond_guard_}, Projection::k_all, &reading);
+    return reading;
   }
   Reading read(uint32_t node) const {
     Reading reading;
@@ -180,7 +197,7 @@ class RoamEngine {
   void fall(uint32_t node);
   void stop_fall(uint32_t node);
   void finish_motions();
-  void finish_falls_now();
+  void finish_falls_now(uint32_t most_visible);
   void finish_motions_now();
   void count_falling_surplus();
   float moved_priority() const;
@@ -188,6 +205,18 @@ class RoamEngine {
   bool centre_moves(uint32_t node) const {
     return !options_.plain && tree_.vertices.moves(tree_.corner[tree_.child[node]].apex);
   }
+
+  // What the host has named: roam_claims.cpp.
+  void follow_claims(bool surface_changed);
+  bool look_at_claimed();
+  void restart_claims();
+  void claim_child(uint32_t child);
+  bool diamond_claimed(uint32_t node) const;
+  void stand(uint32_t node);
+  bool end_falls_for(uint32_t leaf);
+  bool end_rises_for(uint32_t leaf);
+  uint32_t unmet_claims() const;
+  float bound_of(const BucketQueue& queue) const;
 
   // The surface: roam_surface.cpp.
   void read_surface_again();
@@ -221,6 +250,7 @@ class RoamEngine {
   BucketQueue merge_queue_;    // mergeable diamonds near the balance, by their lower node, and all that are out
   BucketQueue blocked_queue_;  // visible leaves near the balance that the surface does not allow to split
   DrawList draws_;
+  Claims claims_;
 
   // Deferral.
   float leaf_guard_ = 0, diamond_guard_ = RoamMesh::k_artificial_max;

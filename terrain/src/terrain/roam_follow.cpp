@@ -111,6 +111,7 @@ void RoamEngine::start_over() {
   grow_arrays();
   for (uint32_t vertex = 0; vertex < tree_.vertices.points.size(); ++vertex) take_vertex(vertex);
   for (uint32_t root = 0; root < tree_.root_count(); ++root) take_node(root);
+  restart_claims();
   fresh_ = true;
 }
 

@@ -81,6 +81,13 @@ Expected<void> RoamMesh::set_options(const RoamOptions& options) {
   return impl_->engine.set_options(options);
 }
 
+Expected<void> RoamMesh::set_priorities(const HostPriorities* priorities) {
+  if (priorities && priorities->lattice() != impl_->engine.tree().lattice())
+    return fail("these host priorities are for another lattice; make them with that of the mesh's surface");
+  impl_->engine.set_priorities(priorities);
+  return {};
+}
+
 const RoamOptions& RoamMesh::options() const {
   return impl_->engine.options();
 }

@@ -51,7 +51,7 @@ void RoamEngine::rise(uint32_t node, double from_z) {
 // Falls that follow one another, finer diamonds before coarser ones, must end in time: each takes half of what is left.
 void RoamEngine::fall(uint32_t node) {
   const auto seconds = float(std::min(double(options_.morph_s), 0.5 * seconds_left()));
-  if (!morphs() || double(seconds) < k_least_seconds) return merge_now(node);
+  if (!morphs() || double(seconds) < k_least_seconds || diamond_claimed(node)) return merge_now(node);
   VertexPool& v = tree_.vertices;
   const Corners& c = tree_.corner[node];
   const uint32_t vertex = tree_.corner[tree_.child[node]].apex;
@@ -154,8 +154,8 @@ void RoamEngine::finish_motions() {
 }
 
 // Where triangles that came into sight leave no room for those on their way out.
-void RoamEngine::finish_falls_now() {
-  for (size_t i = motions_.size(); i-- > 0 && visible_count() > options_.max_triangles;) {
+void RoamEngine::finish_falls_now(uint32_t most_visible) {
+  for (size_t i = motions_.size(); i-- > 0 && visible_count() > most_visible;) {
     const Motion motion = motions_[i];
     if (!lasts(motion) || !(state_[motion.node].cull & k_falling)) continue;
     falling_surplus_ -= merge_gain(motion.node);
@@ -166,7 +166,7 @@ void RoamEngine::finish_falls_now() {
 
 // What rises cannot be merged until it has arrived.
 void RoamEngine::finish_motions_now() {
-  finish_falls_now();
+  finish_falls_now(options_.max_triangles);
   VertexPool& v = tree_.vertices;
   size_t kept = 0;
   for (size_t i = 0; i < motions_.size(); ++i) {

@@ -14,7 +14,9 @@ namespace {}  // namespace
 Assessment RoamEngine::assess(uint32_t node, CullFlags inherited) const {
   const Corners& c = tree_.corner[node];
   if (!view_ || inherited & k_out || c.bound < 0) return {};
-  return projection_.assess(forms(c.apex), forms(c.left), forms(c.right), c.bound, inherited);
+  Assessment found = projection_.assess(forms(c.apex), forms(c.left), forms(c.right), c.bound, inherited);
+  if (wedgie_[node].claimed && !(found.cull & k_out)) found.priority = RoamMesh::k_artificial_max;
+  return found;
 }
 
 CullFlags RoamEngine::inherited_flags(uint32_t node) const {
@@ -53,8 +55,8 @@ void RoamEngine::show(uint32_t leaf) {
 }
 
 void RoamEngine::note_lingering(uint32_t node) {
-  if (wedgie_[node].lingers == lingering_list_) return;
-  wedgie_[node].lingers = lingering_list_;
+  if (wedgie_[node].lingers == (lingering_list_ & 0x7fffffffu)) return;
+  wedgie_[node].lingers = lingering_list_ & 0x7fffffffu;
   lingering_.push_back(node);
 }
 

@@ -50,7 +50,8 @@ struct alignas(64) Wedgie {
   float bound = -1;                   ///< Metres; negative in the padding.
   uint32_t due = 0;                   ///< Tick or mark at which the node is looked at again; 0: no such time.
   uint32_t diamond_due = 0;           ///< The same for the diamond that the node stands for.
-  uint32_t lingers = 0;               ///< The list of what lingers that the node was noted in last.
+  uint32_t lingers : 31 = 0;          ///< The list of what lingers that the node was noted in last.
+  uint32_t claimed : 1 = 0;           ///< A named thing wants it split: in sight its priority is the artificial one.
 
   void place(glm::dvec3 a, glm::dvec3 left, glm::dvec3 right, float its_bound) {
     apex = a;

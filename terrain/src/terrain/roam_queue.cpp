@@ -22,6 +22,19 @@ uint32_t BucketQueue::highest(const NodeStates& nodes) const {
   return k_none;
 }
 
+uint32_t BucketQueue::highest_below(const NodeStates& nodes, uint32_t bucket) const {
+  uint64_t below = (uint64_t(1) << (bucket & 63)) - 1;
+  for (int w = int(bucket >> 6); w >= 0; --w, below = ~uint64_t(0)) {
+    const uint64_t word = words_[size_t(w)] & below & (w == 0 ? ~uint64_t(1) : ~uint64_t(0));
+    if (word == 0) continue;
+    uint32_t best = heads_[size_t(w * 64 + 63 - std::countl_zero(word))];
+    for (uint32_t node = best; node != k_none; node = nodes[node].next)
+      if (nodes[node].key > nodes[best].key) best = node;
+    return best;
+  }
+  return k_none;
+}
+
 uint32_t BucketQueue::lowest(const NodeStates& nodes) const {
   for (size_t s = 0; s < summary_.size(); ++s) {
     uint64_t summary = summary_[s];

@@ -91,8 +91,15 @@ class BucketQueue {
 
   /// The node of the largest key; k_none when none has a priority.
   uint32_t highest(const NodeStates& nodes) const;
+  /// The same among the buckets before one.
+  uint32_t highest_below(const NodeStates& nodes, uint32_t bucket) const;
   /// The node of the smallest key >= 0; k_none when none has a priority.
   uint32_t lowest(const NodeStates& nodes) const;
+  /// Calls visit(node) for all of a bucket.
+  template <class Visit>
+  void for_each(const NodeStates& nodes, uint32_t bucket, Visit&& visit) const {
+    for (uint32_t node = heads_[bucket]; node != k_none; node = nodes[node].next) visit(node);
+  }
   /// Some node without a priority, or k_none.
   uint32_t unprioritised() const { return heads_[0]; }
   size_t size() const { return size_; }

@@ -56,6 +56,7 @@ void RoamEngine::take_children(std::span<const uint32_t, 2> halves) {
       state_[child] = {};
       wedgie_[child] = {};
       take_node(child);
+      if (wedgie_[half].claimed) claim_child(child);
       if (!is_visible(half)) continue;
       if (options_.plain) {
         look_plainly(child, state_[half].cull);
@@ -78,6 +79,7 @@ void RoamEngine::split_one(uint32_t node) {
     const uint32_t parent = tree_.nodes[half].parent;
     if (in_falling(half)) stop_fall(parent);
     if (parent != k_none) forget_diamond(parent);
+    near |= wedgie_[half].claimed;
     if (!is_visible(half)) continue;
     seen = true;
     const NodeState& s = state_[half];
@@ -91,7 +93,7 @@ void RoamEngine::split_one(uint32_t node) {
   grow_arrays();
   take_vertex(tree_.corner[tree_.child[node]].apex);
   take_children(halves);
-  // What crosses the near plane has no bound in pixels to keep while it moves.
+  // What crosses the near plane has no bound in pixels to keep while it moves; what is claimed must be right at once.
   if (morphs() && seen && !near) {
     rise(node, from_z);
   } else {
@@ -111,6 +113,7 @@ void RoamEngine::merge_now(uint32_t node) {
     }
     for (uint32_t child = tree_.child[half]; child <= tree_.child[half] + 1; ++child) {
       unplace(child);
+      if (wedgie_[child].claimed) claims_.forget(child);
       if (draws_.contains(child)) draws_.remove(child);
       state_[child].cull = k_out;
     }
@@ -157,11 +160,12 @@ bool RoamEngine::converge() {
     const bool falls = !tree_.is_leaf(worst);
     const Room room = falls ? room_for_stop(worst) : room_for(tree_.forced_chain(worst));
     if (room == Room::later) {
-      balanced_ = false;
-      return false;
-    }
-    if (room == Room::full) {
-      if (!make_room(worst)) return motions_.empty() && hidden_merges_left_ > 0;
+      if (!end_falls_for(worst)) {
+        balanced_ = false;
+        return false;
+      }
+    } else if (room == Room::full) {
+      if (!make_room(worst) && !end_rises_for(worst)) return motions_.empty() && hidden_merges_left_ > 0;
     } else if (falls) {
       stop_fall(worst);
       ++operations_;
@@ -239,7 +243,7 @@ void RoamEngine::shrink_to_budget() {
     if (victim == k_none) break;
     give_up(victim);
   }
-  if (visible_count() > options_.max_triangles) finish_falls_now();
+  if (visible_count() > options_.max_triangles) finish_falls_now(options_.max_triangles);
   while (visible_count() > options_.max_triangles) {
     uint32_t victim = cheapest_diamond(RoamMesh::k_artificial_max);
     if (victim == k_none) victim = merge_queue_.unprioritised();

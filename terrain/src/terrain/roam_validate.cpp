@@ -20,6 +20,7 @@ class Validator {
       stack.pop_back();
       ++nodes_;
       check_identity(node);
+      check_claimed(node);
       check_view(node);
       if (t_.is_leaf(node)) {
         check_leaf(node);
@@ -32,6 +33,7 @@ class Validator {
     }
     check_counts();
     check_motions();
+    if (fault_.empty() && !e_.claims_.empty()) fault_ = e_.claims_.fault(t_);
     if (!fault_.empty()) return fail(fault_);
     return {};
   }
@@ -64,8 +66,15 @@ class Validator {
             "has an id that does not follow its parent's");
   }
 
+  void check_claimed(uint32_t node) {
+    require(e_.wedgie_[node].claimed == e_.claims_.holds(node), node, "is marked as claimed wrongly");
+    if (t_.is_split(node) && e_.diamond_claimed(node))
+      require(!e_.centre_moves(node), node, "is claimed, and its centre moves");
+  }
+
   // Deferred findings are derived again for the present view: none may be wrong by now.
   void check_view(uint32_t node) {
+    if (e_.fresh_) return;  // nothing is known of any node
     const NodeState& s = e_.state_[node];
     const uint32_t parent = t_.nodes[node].parent, due = e_.wedgie_[node].due;
     const bool below_out = parent != k_none && !e_.is_visible(parent);

@@ -51,6 +51,7 @@ struct Lattice {
   /// Western/southern and eastern/northern corner of the data, world.
   glm::dvec2 min_corner() const { return world_xy({0, last().y}); }
   glm::dvec2 max_corner() const { return world_xy({last().x, 0}); }
+  bool operator==(const Lattice&) const = default;
 };
 
 }  // namespace sward

@@ -4,6 +4,7 @@
 
 #include <sward/terrain/bounds.h>
 #include <sward/terrain/fixed_triangles.h>
+#include <sward/terrain/host_priorities.h>
 #include <sward/terrain/surface.h>
 #include <sward/terrain/view.h>
 #include <memory>
@@ -36,6 +37,9 @@ struct RoamStats {
   uint32_t looked_at = 0;  ///< Nodes whose wedgie was projected anew.
   uint32_t moving = 0;     ///< Vertices between two heights.
   bool capped = false;     ///< Ended early: the time cap, or much that a loaded square set free. Later updates go on.
+  /// Triangles in sight that a named point or line wants split (set_priorities()) and that are not: the budget is used
+  /// up by what is named and what crosses the near plane, the time cap ended the update, or data are not resident.
+  uint32_t unmet = 0;
 };
 
 /// A vertex as the GPU gets it, relative to RoamMesh::origin(). Slots are stable while the vertex lives.
@@ -74,6 +78,12 @@ class RoamMesh {
   /// free is split over several updates: an update then changes some per cent of the mesh, and more in each that
   /// follows until the mesh is what its view asks for. A count, not a clock: the same in every run.
   void residency_changed(const LatticeBox& box);
+
+  /// From the next update on what `priorities` names is refined before everything else but what crosses the near plane,
+  /// which is its equal: other triangles are given up for it, RoamOptions::max_triangles stays exact, and when it is
+  /// not enough RoamStats::unmet counts what is missing. `priorities` must outlive the mesh or be taken away with null;
+  /// it may be set for several meshes. Fails, changing nothing, when its lattice is another one.
+  Expected<void> set_priorities(const HostPriorities* priorities);
 
   /// Changes the budget or the target; takes effect at the next update. Fails as create does.
   Expected<void> set_options(const RoamOptions& options);

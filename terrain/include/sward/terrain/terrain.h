@@ -14,6 +14,7 @@
 #include <sward/terrain/error.h>
 #include <sward/terrain/fixed_triangles.h>
 #include <sward/terrain/height_field.h>
+#include <sward/terrain/host_priorities.h>
 #include <sward/terrain/many_views.h>
 #include <sward/terrain/queries.h>
 #include <sward/terrain/roam_mesh.h>
