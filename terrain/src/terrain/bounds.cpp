@@ -291,6 +291,10 @@ float Bounds::bound(LatticePoint centre, int level) const {
   return code == k_nothing ? 0.0f : decode(code);
 }
 
+void Bounds::prefetch(LatticePoint centre) const {
+  __builtin_prefetch(&stored_[size_t(centre.y >> step_bits_) * size_t(stride_) + size_t(centre.x >> step_bits_)]);
+}
+
 uint16_t Bounds::encode_up(float metres) {
   return encode_double_up(double(metres));
 }

@@ -10,14 +10,7 @@
 #include <cmath>
 #include <limits>
 
-// Loops twice as wide where the processor can, chosen when the program starts; the same operations in the same order,
-// so the same results. Sanitizers run before that choice can be made.
-#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define SWARD_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define SWARD_WIDE
-#endif
+#include "wide.h"
 
 namespace sward::roam {
 

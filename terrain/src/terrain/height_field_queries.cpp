@@ -104,6 +104,13 @@ double HeightField::raw(int column, int row) const {
   return double((*std::get_if<std::vector<float>>(&samples_))[index]);
 }
 
+void HeightField::prefetch(LatticePoint p) const {
+  const int step = lattice_.sample_step();
+  const int column = std::min(p.x / step, desc_.columns - 1), row = std::min(p.y / step, desc_.rows - 1);
+  const size_t index = size_t(row) * size_t(desc_.columns) + size_t(column);
+  std::visit([index](const auto& values) { __builtin_prefetch(&values[index]); }, samples_);
+}
+
 double HeightField::sample(int column, int row) const {
   const int c = std::clamp(column, 0, desc_.columns - 1), r = std::clamp(row, 0, desc_.rows - 1);
   return raw(c, r) * desc_.scale + (desc_.offset + desc_.origin.z);

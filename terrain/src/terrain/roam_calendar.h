@@ -28,8 +28,6 @@ class Calendar {
   /// Least tick: smaller numbers are free for marks in the nodes' records.
   static constexpr uint32_t k_first_tick = 16;
 
-  Calendar() { heads_.fill(k_nil); }
-
   /// The clock: `ticks` go by. Time does not run backwards.
   void advance(double ticks) { now_ += std::min(ticks, 2.0 * k_span); }
   /// The tick at which something that holds for `ticks` more is to be looked at again; 0 when that is now.
@@ -38,14 +36,13 @@ class Calendar {
     return tick <= uint32_t(now_) || tick < read_ ? 0 : tick;
   }
   void enter(uint32_t node, uint32_t tick) {
-    uint32_t& head = heads_[tick % k_span];
-    if (head == k_nil || pool_[head].count == k_in_block) {
+    Head& head = heads_[tick % k_span];
+    if (head.block == k_nil || head.count == k_in_block) {
       const uint32_t block = take_block();
-      pool_[block].next = head;
-      head = block;
+      pool_[block].next = head.block;
+      head = {block, 0};
     }
-    Block& block = pool_[head];
-    block.node[block.count++] = node;
+    pool_[head.block].node[head.count++] = node;
     ++entries_;
   }
   /// Moves all entries that have come due into `due`, with their ticks.
@@ -62,7 +59,7 @@ class Calendar {
   /// Ticks are about to run out of numbers: clear() begins anew.
   bool old() const { return now_ > 2e9; }
   void clear() {
-    heads_.fill(k_nil);
+    heads_.fill({});
     pool_.clear();
     free_ = k_nil;
     entries_ = 0;
@@ -72,10 +69,14 @@ class Calendar {
 
  private:
   static constexpr uint32_t k_nil = 0xffffffffu;
-  static constexpr uint32_t k_in_block = 30;
+  static constexpr uint32_t k_in_block = 31;
+  // All blocks of a list but its first are full.
   struct Block {
-    uint32_t next = k_nil, count = 0;
+    uint32_t next = k_nil;
     std::array<uint32_t, k_in_block> node;
+  };
+  struct Head {
+    uint32_t block = k_nil, count = 0;
   };
 
   uint32_t take_block() {
@@ -85,23 +86,22 @@ class Calendar {
     }
     const uint32_t block = free_;
     free_ = pool_[block].next;
-    pool_[block].count = 0;
     return block;
   }
   void take_list(uint32_t tick, std::vector<Entry>& due) {
-    uint32_t& head = heads_[tick % k_span];
-    while (head != k_nil) {
-      Block& block = pool_[head];
-      for (uint32_t i = 0; i < block.count; ++i) due.push_back({block.node[i], tick});
-      entries_ -= block.count;
+    Head& head = heads_[tick % k_span];
+    while (head.block != k_nil) {
+      Block& block = pool_[head.block];
+      for (uint32_t i = 0; i < head.count; ++i) due.push_back({block.node[i], tick});
+      entries_ -= head.count;
       const uint32_t next = block.next;
       block.next = free_;
-      free_ = head;
-      head = next;
+      free_ = head.block;
+      head = {next, k_in_block};
     }
   }
 
-  std::array<uint32_t, k_span> heads_;
+  std::array<Head, k_span> heads_{};
   std::vector<Block> pool_;
   uint32_t free_ = k_nil;
   size_t entries_ = 0;

@@ -42,6 +42,8 @@ Expected<void> RoamEngine::set_options(const RoamOptions& options) {
   uint32_t drawable = 0;
   for (uint32_t root = 0; root < tree_.root_count(); ++root) drawable += tree_.nodes[root].cover != Cover::padding;
   if (auto checked = check_options(options, drawable); !checked) return checked;
+  if (options.plain && !options_.plain)
+    for (uint32_t vertex = 0; vertex < tree_.vertices.points.size(); ++vertex) take_vertex(vertex);
   // The two ways of keeping the queues do not mix.
   if (options.plain != options_.plain && view_) {
     options_ = options;

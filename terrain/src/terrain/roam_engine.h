@@ -166,6 +166,7 @@ class RoamEngine {
 
   // Adapting: roam_refine.cpp.
   enum class Room { enough, full, later };
+  void prefetch_splits() const;
   void split_one(uint32_t node);
   void take_children(std::span<const uint32_t, 2> halves);
   uint32_t split_chain(const Chain& chain);
@@ -174,7 +175,7 @@ class RoamEngine {
   uint32_t worst_leaf();
   uint32_t cheapest_diamond(float below);
   bool make_room(uint32_t node);
-  Room room_for(const Chain& chain) const;
+  Room room_for(const Chain& chain);
   Room room_for_stop(uint32_t node) const;
   Reading plain_reading(uint32_t node) const;
   void shrink_to_budget();
@@ -244,7 +245,7 @@ class RoamEngine {
   uint32_t lingering_list_ = 1;                 // the number of the first
   double lingering_ticks_ = 0;                  // since it was begun
   // Least and most ticks after which a visible leaf that may have left the view is looked at.
-  static constexpr float k_least_patience = 10, k_most_patience = 640;
+  static constexpr float k_least_patience = 10, k_most_patience = 320;
   bool new_to_rest_ = false;   // the view of the last update was new
   BucketQueue split_queue_;    // visible leaves near the balance
   BucketQueue merge_queue_;    // mergeable diamonds near the balance, by their lower node, and all that are out
@@ -272,6 +273,12 @@ class RoamEngine {
   };
   std::vector<Visit> visits_;
 
+  // What the last chain costs of which that was asked in this update: asked again after each merge that makes room.
+  struct Priced {
+    std::vector<uint32_t> chain;
+    int cost = 0;
+  } priced_;
+
   // Motion.
   struct Motion {
     uint32_t node;  // half of the diamond whose centre moves
@@ -289,7 +296,8 @@ class RoamEngine {
   };
   std::vector<Change> changes_;
 
-  // What a view makes of a vertex, computed when first needed, beside what it is computed from: one cache line.
+  // What a view makes of a vertex, computed when first needed, beside what it is computed from: one cache line. Kept
+  // with RoamOptions::plain only.
   struct alignas(64) SeenVertex {
     glm::dvec3 world{0};
     float form[Forms::k_forms] = {};

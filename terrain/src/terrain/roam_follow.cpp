@@ -23,7 +23,7 @@ constexpr double k_rebase_distance = 1000.0, k_rebase_seconds = 2048.0;
 // Share of the visible triangles that have to stay in sight for the mesh to be worth keeping.
 constexpr double k_worth_keeping = 0.2;
 // The guards' places about the balance, and how far they may be from them without being moved.
-constexpr float k_leaf_place = 0.996f, k_leaf_highest = 0.999f, k_leaf_lowest = 0.985f;
+constexpr float k_leaf_place = 0.998f, k_leaf_highest = 0.9995f, k_leaf_lowest = 0.990f;
 constexpr float k_diamond_place = 0.998f, k_diamond_lowest = 0.992f, k_diamond_highest = 1.008f;
 constexpr float k_first_guard_ticks = 2, k_guard_ticks_a_frame = 3;
 

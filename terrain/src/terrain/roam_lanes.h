@@ -5,25 +5,27 @@
 #include <cmath>
 #include <cstring>
 
+#include "wide.h"
+
 namespace sward::roam {
 
 /// Four floats that are added, multiplied and compared side by side: GCC's and Clang's vector extension.
 using Lanes = float __attribute__((vector_size(16)));
 
-inline Lanes all(float value) {
+SWARD_INLINE Lanes all(float value) {
   return Lanes{value, value, value, value};
 }
-inline Lanes larger(Lanes a, Lanes b) {
+SWARD_INLINE Lanes larger(Lanes a, Lanes b) {
   return a > b ? a : b;
 }
-inline Lanes smaller(Lanes a, Lanes b) {
+SWARD_INLINE Lanes smaller(Lanes a, Lanes b) {
   return a < b ? a : b;
 }
 
-inline Lanes magnitude(Lanes a) {
+SWARD_INLINE Lanes magnitude(Lanes a) {
   return a < 0.0f ? -a : a;
 }
-inline Lanes root(Lanes a) {
+SWARD_INLINE Lanes root(Lanes a) {
   return Lanes{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
 }
 

@@ -15,7 +15,7 @@ Assessment RoamEngine::assess(uint32_t node, CullFlags inherited) const {
   const Corners& c = tree_.corner[node];
   if (!view_ || inherited & k_out || c.bound < 0) return {};
   Assessment found = projection_.assess(forms(c.apex), forms(c.left), forms(c.right), c.bound, inherited);
-  if (wedgie_[node].claimed && !(found.cull & k_out)) found.priority = RoamMesh::k_artificial_max;
+  if (!claims_.empty() && !(found.cull & k_out) && wedgie_[node].claimed) found.priority = RoamMesh::k_artificial_max;
   return found;
 }
 

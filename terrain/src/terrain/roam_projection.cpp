@@ -28,6 +28,8 @@
 
 #include <cmath>
 
+#include "wide.h"
+
 namespace sward::roam {
 
 namespace {
@@ -88,7 +90,7 @@ struct Projection::Four {
   Lanes square, nearest;
 };
 
-Projection::Four Projection::place(std::span<const Wedgie* const> wedgies) const {
+SWARD_INLINE Projection::Four Projection::place(std::span<const Wedgie* const> wedgies) const {
   const size_t last = wedgies.size() - 1;
   const Wedgie* const w[k_together] = {wedgies[0], wedgies[std::min<size_t>(1, last)],
                                        wedgies[std::min<size_t>(2, last)], wedgies[std::min<size_t>(3, last)]};
@@ -107,7 +109,7 @@ Projection::Four Projection::place(std::span<const Wedgie* const> wedgies) const
   return f;
 }
 
-void Projection::measure_sides(Four& f) const {
+SWARD_INLINE void Projection::measure_sides(Four& f) const {
   for (int i = 0; i < Forms::k_sides; ++i) {
     const Form& form = form_[size_t(i)];
     const Lanes a = form.at(f.px[0], f.py[0], f.pz[0]), b = form.at(f.px[1], f.py[1], f.pz[1]),
@@ -120,13 +122,13 @@ void Projection::measure_sides(Four& f) const {
   f.outside = f.bound < 0.0f ? all(-1) : f.outside;
 }
 
-std::array<bool, Projection::k_together> Projection::out(std::span<const Wedgie* const> wedgies) const {
+SWARD_WIDE std::array<bool, Projection::k_together> Projection::out(std::span<const Wedgie* const> wedgies) const {
   Four f = place(wedgies);
   measure_sides(f);
   return {f.outside[0] < 0, f.outside[1] < 0, f.outside[2] < 0, f.outside[3] < 0};
 }
 
-void Projection::measure_thickness(Four& f) const {
+SWARD_INLINE void Projection::measure_thickness(Four& f) const {
   for (int i = 0; i < 3; ++i) {
     f.x[i] = form_[Forms::k_x].at(f.px[i], f.py[i], f.pz[i]);
     f.y[i] = form_[Forms::k_y].at(f.px[i], f.py[i], f.pz[i]);
@@ -149,7 +151,7 @@ float Projection::moved_priority(const Wedgie& wedgie, float offset) const {
   return cap((wedgie.bound + offset) * std::sqrt(f.square[0]) / (above * below));
 }
 
-Lanes Projection::priority(const Four& f) const {
+SWARD_INLINE Lanes Projection::priority(const Four& f) const {
   const Lanes reach = f.bound * depth_per_metre_;
   const Lanes denominator = (f.nearest - reach) * (f.nearest + reach);
   const Lanes most = all(RoamMesh::k_artificial_max);
@@ -173,7 +175,7 @@ void Projection::expect(const Projection& before, double ticks) {
   }
 }
 
-Lanes Projection::ticks_to_leave(const Four& f) const {
+SWARD_INLINE Lanes Projection::ticks_to_leave(const Four& f) const {
   const Lanes third = all(1 / 3.0f);
   const Lanes x = third * (f.px[0] + f.px[1] + f.px[2]), y = third * (f.py[0] + f.py[1] + f.py[2]),
               z = third * (f.pz[0] + f.pz[1] + f.pz[2]);
@@ -194,13 +196,13 @@ struct Projection::Change {
 
 namespace {
 
-Lanes length_of(Lanes x, Lanes y, Lanes z) {
+SWARD_INLINE Lanes length_of(Lanes x, Lanes y, Lanes z) {
   return root(x * x + y * y + z * z);
 }
 
 }  // namespace
 
-Projection::Change Projection::change_of(const Four& f, const TickUnits& units) const {
+SWARD_INLINE Projection::Change Projection::change_of(const Four& f, const TickUnits& units) const {
   // a: the corner of the largest thickness, b: that of the least depth.
   Lanes most = f.x[0] * f.x[0] + f.y[0] * f.y[0], xa = f.x[0], ya = f.y[0], pxa = f.px[0], pya = f.py[0];
   Lanes w = f.w[0], pxb = f.px[0], pyb = f.py[0], pzb = f.pz[0];
@@ -262,18 +264,18 @@ Projection::Change Projection::change_of(const Four& f, const TickUnits& units) 
 namespace {
 
 // The n > 0 at which l n + q n^2 = limit.
-Lanes solve(Lanes l, Lanes q, Lanes limit) {
+SWARD_INLINE Lanes solve(Lanes l, Lanes q, Lanes limit) {
   return 2 * limit / (l + root(l * l + 4 * q * limit));
 }
 
 // No more than the logarithm of a ratio >= 1: the first term of its series about 1.
-Lanes least_log(Lanes ratio) {
+SWARD_INLINE Lanes least_log(Lanes ratio) {
   return 2 * (ratio - 1) / (ratio + 1);
 }
 
 }  // namespace
 
-Lanes Projection::below_ticks(const Four& f, const Change& c, Lanes p, const Deferral& deferral) const {
+SWARD_INLINE Lanes Projection::below_ticks(const Four& f, const Change& c, Lanes p, const Deferral& deferral) const {
   const TickUnits& units = deferral.units;
   const Lanes zero = all(0), rounded = p * k_rounding, rise = least_log(deferral.leaf_guard / rounded);
   const Lanes near_ticks = f.near_inside / (units.metres + units.radians * (c.range + f.near_inside));
@@ -285,7 +287,7 @@ Lanes Projection::below_ticks(const Four& f, const Change& c, Lanes p, const Def
   return rounded <= deferral.leaf_guard ? ticks : zero;
 }
 
-Lanes Projection::above_ticks(const Change& c, Lanes p, const Deferral& deferral) const {
+SWARD_INLINE Lanes Projection::above_ticks(const Change& c, Lanes p, const Deferral& deferral) const {
   const float reached = deferral.diamond_guard * k_rounding;
   const Lanes zero = all(0), fall = least_log(p / reached);
   Lanes ticks = smaller(smaller(solve(c.linear_down, c.square_down, fall), fall / deferral.units.log_guard), c.valid);
@@ -293,8 +295,8 @@ Lanes Projection::above_ticks(const Change& c, Lanes p, const Deferral& deferral
   return p < RoamMesh::k_artificial_max ? ticks : zero;
 }
 
-void Projection::read(std::span<const Wedgie* const> wedgies, const Deferral& deferral, Wanted wanted,
-                      Reading* readings) const {
+SWARD_WIDE void Projection::read(std::span<const Wedgie* const> wedgies, const Deferral& deferral, Wanted wanted,
+                                 Reading* readings) const {
   Four f = place(wedgies);
   measure_sides(f);
   Lanes p = f.outside < 0.0f ? all(-1) : all(0);

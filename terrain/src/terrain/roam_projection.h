@@ -151,7 +151,7 @@ class Projection {
   // The same forms, each in all lanes, and the changes of those of the halfspaces a tick, as expected.
   struct Form {
     Lanes x{}, y{}, z{}, one{};
-    Lanes at(Lanes px, Lanes py, Lanes pz) const { return x * px + y * py + z * pz + one; }
+    SWARD_INLINE Lanes at(Lanes px, Lanes py, Lanes pz) const { return x * px + y * py + z * pz + one; }
   };
   std::array<Form, Forms::k_forms> form_{};
   std::array<Form, Forms::k_sides> rate_{};

@@ -35,6 +35,26 @@ uint32_t BucketQueue::highest_below(const NodeStates& nodes, uint32_t bucket) co
   return k_none;
 }
 
+size_t BucketQueue::some_highest(const NodeStates& nodes, std::span<uint32_t> nodes_out) const {
+  size_t count = 0;
+  for (int s = int(summary_.size()) - 1; s >= 0; --s) {
+    for (uint64_t summary = summary_[size_t(s)]; summary != 0;) {
+      const int w = 63 - std::countl_zero(summary);
+      summary &= ~(uint64_t(1) << w);
+      for (uint64_t word = words_[size_t(s * 64 + w)]; word != 0;) {
+        const int bit = 63 - std::countl_zero(word);
+        word &= ~(uint64_t(1) << bit);
+        const int bucket = (s * 64 + w) * 64 + bit;
+        for (uint32_t node = bucket == 0 ? k_none : heads_[size_t(bucket)]; node != k_none; node = nodes[node].next) {
+          if (count == nodes_out.size()) return count;
+          nodes_out[count++] = node;
+        }
+      }
+    }
+  }
+  return count;
+}
+
 uint32_t BucketQueue::lowest(const NodeStates& nodes) const {
   for (size_t s = 0; s < summary_.size(); ++s) {
     uint64_t summary = summary_[s];

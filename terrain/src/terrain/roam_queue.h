@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace sward::roam {
@@ -93,6 +94,8 @@ class BucketQueue {
   uint32_t highest(const NodeStates& nodes) const;
   /// The same among the buckets before one.
   uint32_t highest_below(const NodeStates& nodes, uint32_t bucket) const;
+  /// Nodes of the largest keys, not quite in their order, into `nodes_out`; their number.
+  size_t some_highest(const NodeStates& nodes, std::span<uint32_t> nodes_out) const;
   /// The node of the smallest key >= 0; k_none when none has a priority.
   uint32_t lowest(const NodeStates& nodes) const;
   /// Calls visit(node) for all of a bucket.

@@ -42,6 +42,7 @@ uint32_t RoamEngine::decision_budget() const {
 }
 
 uint32_t RoamEngine::split_chain(const Chain& chain) {
+  priced_.chain.clear();
   for (int i = chain.length; i-- > 0;) split_one(chain.node[i]);
   return uint32_t(chain.length);
 }
@@ -91,7 +92,7 @@ void RoamEngine::split_one(uint32_t node) {
   const double from_z = 0.5 * (tree_.vertices.drawn_z(c.left) + tree_.vertices.drawn_z(c.right));
   tree_.split_diamond(node);
   grow_arrays();
-  take_vertex(tree_.corner[tree_.child[node]].apex);
+  if (options_.plain) take_vertex(tree_.corner[tree_.child[node]].apex);
   take_children(halves);
   // What crosses the near plane has no bound in pixels to keep while it moves; what is claimed must be right at once.
   if (morphs() && seen && !near) {
@@ -140,12 +141,53 @@ Reading RoamEngine::plain_reading(uint32_t node) const {
   return reading;
 }
 
+// What the coming splits read and write lies scattered: the nodes, their parents' diamonds, heights, and the bounds of
+// children, of which each is a cell of a large table. In passes, since each finds the addresses of the next.
+void RoamEngine::prefetch_splits() const {
+  std::array<uint32_t, 96> halves;
+  const size_t first = split_queue_.some_highest(state_, {halves.data(), halves.size() / 2});
+  size_t count = first;
+  for (size_t i = 0; i < first; ++i) __builtin_prefetch(&tree_.neighbour[halves[i]]);
+  for (size_t i = 0; i < first; ++i) {
+    const uint32_t base = tree_.neighbour[halves[i]].base;
+    if (base != k_none) halves[count++] = base;
+  }
+  for (size_t i = 0; i < count; ++i) {
+    const uint32_t half = halves[i];
+    __builtin_prefetch(&tree_.nodes[half]);
+    __builtin_prefetch(&tree_.corner[half]);
+    __builtin_prefetch(&tree_.child[half]);
+    __builtin_prefetch(&state_[half]);
+    __builtin_prefetch(&wedgie_[half]);
+    __builtin_prefetch(&tree_.neighbour[half]);
+  }
+  for (size_t i = 0; i < count; ++i) {
+    const Corners& c = tree_.corner[halves[i]];
+    for (const uint32_t vertex : {c.apex, c.left, c.right}) {
+      __builtin_prefetch(&tree_.vertices.lattice[vertex]);
+      __builtin_prefetch(&tree_.vertices.points[vertex]);
+    }
+    if (const uint32_t parent = tree_.nodes[halves[i]].parent; parent != k_none) {
+      __builtin_prefetch(&tree_.neighbour[parent]);
+      __builtin_prefetch(&state_[parent]);
+      __builtin_prefetch(&wedgie_[parent]);
+    }
+  }
+  for (size_t i = 0; i < count; ++i) {
+    const TriangleCorners c = tree_.corners(halves[i]);
+    tree_.surface().prefetch(centre_of(c));
+    for (int turn = 0; turn < 2; ++turn) tree_.surface().prefetch(centre_of(child_corners(c, turn)));
+  }
+}
+
 // False when there is more to do: the time cap, what loaded squares set free, or triangles on their way out ended it.
 // The clock is first read after some operations, so that every update makes progress.
 bool RoamEngine::converge() {
   hidden_merges_left_ = options_.plain ? ~0u : k_hidden_merges + visible_count() / k_hidden_merges_divisor;
   balanced_ = true;
+  priced_.chain.clear();
   shrink_to_budget();
+  prefetch_splits();
   while (operations_ < operation_limit_) {
     if (out_of_time() || operations_ >= released_) {
       stats_.capped = true;
@@ -199,7 +241,7 @@ uint32_t RoamEngine::cheapest_diamond(float limit) {
   }
 }
 
-RoamEngine::Room RoamEngine::room_for(const Chain& chain) const {
+RoamEngine::Room RoamEngine::room_for(const Chain& chain) {
   const int64_t most = 2 * int64_t(chain.length);
   if (tree_.leaf_count() + most > leaf_limit(options_, tree_.root_count())) return Room::full;
   const int64_t decided_room = int64_t(decision_budget()) - decided_count();
@@ -210,7 +252,11 @@ RoamEngine::Room RoamEngine::room_for(const Chain& chain) const {
     for (const uint32_t half : {chain.node[i], tree_.neighbour[chain.node[i]].base})
       if (half != k_none && in_falling(half)) rising += merge_gain(tree_.nodes[half].parent);
   if (most + rising <= decided_room && most <= drawn_room) return Room::enough;
-  const int cost = split_cost(chain);
+  if (!std::ranges::equal(chain.nodes(), priced_.chain)) {
+    priced_.chain.assign(chain.nodes().begin(), chain.nodes().end());
+    priced_.cost = split_cost(chain);
+  }
+  const int cost = priced_.cost;
   if (cost + rising > decided_room) return Room::full;
   return cost > drawn_room ? Room::later : Room::enough;
 }

@@ -115,6 +115,8 @@ struct Neighbours {
 struct Chain {
   std::array<uint32_t, k_max_level + 1> node;
   int length = 0;
+
+  std::span<const uint32_t> nodes() const { return {node.data(), size_t(length)}; }
 };
 
 /// What only splits and merges read of a node.

@@ -37,6 +37,8 @@ class Bounds {
   float bound(LatticePoint centre, int level) const;
 
   const HeightField& field() const { return *field_; }
+  /// Fetches what bound() reads for a centre into the cache, without waiting for it.
+  void prefetch(LatticePoint centre) const;
   /// Bytes held.
   size_t memory() const { return stored_count_ * sizeof(uint16_t); }
 

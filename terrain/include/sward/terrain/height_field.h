@@ -90,6 +90,8 @@ class HeightField {
   bool inside(LatticePoint p) const { return lattice_.inside(p); }
   /// Surface height at a lattice point, relief included, metres, world.
   double height(LatticePoint p) const;
+  /// Fetches a sample that height() reads for a point in the lattice into the cache, without waiting for it.
+  void prefetch(LatticePoint p) const;
   /// Finest surface (the mesh of max_level everywhere) at world x, y. NaN outside of the data.
   double height(glm::dvec2 xy) const;
   /// Unit normal of the finest surface at world x, y; up outside of the data.

@@ -28,6 +28,9 @@ class Surface {
   /// False while the diamond cannot be split because the height of its centre or the bounds below it are not resident.
   /// Nested: where a diamond can be split, so can every diamond that has to be split before it.
   virtual bool can_split(LatticePoint centre, int level) const = 0;
+  /// The height at this point and the bound around it are going to be asked for: what can be fetched into the cache
+  /// without waiting for it may be. Does nothing unless overridden.
+  virtual void prefetch(LatticePoint) const {}
   /// Slope of the data (dz/dx, dz/dy), as HeightField::data_gradient.
   virtual glm::dvec2 data_gradient(glm::dvec2 xy) const = 0;
   /// True when no valid sample lies in the box (its corners included, clamped to the data).
@@ -44,6 +47,10 @@ class FieldSurface final : public Surface {
   glm::dvec2 relief_gradient(LatticePoint p) const override { return field_->relief_gradient(p); }
   float bound(LatticePoint centre, int level) const override { return bounds_->bound(centre, level); }
   bool can_split(LatticePoint, int) const override { return true; }
+  void prefetch(LatticePoint p) const override {
+    field_->prefetch(p);
+    bounds_->prefetch(p);
+  }
   glm::dvec2 data_gradient(glm::dvec2 xy) const override { return field_->data_gradient(xy); }
   bool all_holes(const LatticeBox& box) const override;
 
