@@ -193,6 +193,12 @@ class RoamEngine {
   void set_time(double time_s);
   bool morphs() const { return now_.has_value() && options_.morph_s > 0 && !options_.plain && !from_nothing_; }
   double seconds_left() const;
+  float clear_ticks(uint32_t node, double from_z, double to_z) const;
+  float modest() const;
+  float modest_ticks(uint32_t node) const;
+  void move_centre(uint32_t node, double from_z, double to_z, float seconds, float clear_ticks);
+  void stand_still(uint32_t node);
+  void forget_clearances();
   void rise(uint32_t node, double from_z);
   void fall(uint32_t node);
   void stop_fall(uint32_t node);
@@ -254,6 +260,7 @@ class RoamEngine {
 
   // Deferral.
   float leaf_guard_ = 0, diamond_guard_ = RoamMesh::k_artificial_max;
+  float balance_ = RoamMesh::k_artificial_max;  // that the guards followed last
   Calendar out_calendar_, leaf_calendar_, diamond_calendar_;
   TickUnits units_, safe_units_;
   float peak_metres_ = 0, peak_radians_ = 0;  // of the last seconds, per update
@@ -276,10 +283,12 @@ class RoamEngine {
   struct Motion {
     uint32_t node;  // half of the diamond whose centre moves
     uint32_t vertex;
-    double arrives;  // not before this time
-    bool falls;      // or did once
+    double arrives;        // not before this time
+    uint32_t clear_until;  // the tick of out_calendar_ up to which it need not be looked at
+    bool falls;            // or did once
   };
   bool lasts(const Motion& motion) const;
+  bool stays_clear(Motion& motion) const;
   std::vector<Motion> motions_;
   int64_t falling_surplus_ = 0;  // drawn triangles that are gone once all falls have ended
 

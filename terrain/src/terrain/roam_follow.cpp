@@ -119,6 +119,7 @@ void RoamEngine::start_over() {
 // still is has not changed and is not visited.
 void RoamEngine::look_at_all() {
   for (Calendar* calendar : {&out_calendar_, &leaf_calendar_, &diamond_calendar_}) calendar->clear();
+  forget_clearances();
   hot_leaves_.clear();
   hot_diamonds_.clear();
   hot_outs_.clear();
@@ -406,6 +407,7 @@ void RoamEngine::follow_balance() {
   const float highest = worst == k_none ? 0 : state_[worst].key;
   const float now = std::max(highest, options_.target_px);
   if (!(now > 0) || now >= RoamMesh::k_artificial_max) return;
+  balance_ = now;
   const float step = k_guard_ticks_a_frame * units_.log_guard;
   float leaf = leaf_guard_;
   if (leaf > k_leaf_highest * now) {

@@ -137,6 +137,32 @@ void Projection::measure_thickness(Four& f) const {
   f.nearest = smaller(f.w[0], smaller(f.w[1], f.w[2]));
 }
 
+float Projection::clear_ticks(const Wedgie& wedgie, float reach, const TickUnits& units) const {
+  constexpr float k_rounding_per_metre = 1e-6f;
+  const glm::vec3 apex(wedgie.apex - eye_);
+  const std::array<glm::vec3, 3> corners{apex, apex + wedgie.to_left, apex + wedgie.to_right};
+  float range = 0;
+  for (const glm::vec3& p : corners) range = std::max(range, glm::length(p));
+  range += reach;
+  const float margin = k_rounding_per_metre * range;
+  const auto lasts = [&](float slack) { return slack / (units.metres + units.radians * (range + slack)); };
+  const auto sides = [&](int i) {
+    const auto at = [&](const glm::vec3& p) {
+      return form_x_[i] * p.x + form_y_[i] * p.y + form_z_[i] * p.z + form_1_[i];
+    };
+    return std::array<float, 3>{at(corners[0]), at(corners[1]), at(corners[2])};
+  };
+  const std::array<float, 3> near = sides(4);
+  const float inside = *std::min_element(near.begin(), near.end()) - reach * reach_[4] - margin;
+  if (inside >= 0) return lasts(inside);
+  float outside = 0;
+  for (int i = 0; i < Forms::k_sides; ++i) {
+    const std::array<float, 3> side = sides(i);
+    outside = std::max(outside, -*std::max_element(side.begin(), side.end()) - reach * reach_[i] - margin);
+  }
+  return outside > 0 ? lasts(outside) : -1;
+}
+
 float Projection::moved_priority(const Wedgie& wedgie, float offset) const {
   const Wedgie* const one = &wedgie;
   Four f = place({&one, 1});

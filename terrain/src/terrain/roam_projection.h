@@ -108,6 +108,10 @@ class Projection {
   /// Motion so far, from the view of `before` within so many ticks: it is expected to go on.
   void expect(const Projection& before, double ticks);
 
+  /// For how many ticks nothing in sight up to `reach` metres above or below the wedgie's triangle crosses the near
+  /// plane; negative when something may now.
+  float clear_ticks(const Wedgie& wedgie, float reach, const TickUnits& units) const;
+
   /// The largest distance in pixels between a drawn triangle, whose corners are up to `offset` metres from where the
   /// wedgie has them, and the surface within that, where offset > its bound. The artificial maximum when either may
   /// cross the near plane; 0 when the wedgie is out.

@@ -83,7 +83,7 @@ void RoamEngine::split_one(uint32_t node) {
     if (!is_visible(half)) continue;
     seen = true;
     const NodeState& s = state_[half];
-    near |= morphs() && (s.queued() ? s.key : read(half).priority) >= RoamMesh::k_artificial_max;
+    near |= morphs() && (s.queued() ? s.key : read(half).priority) > modest();
     unplace(half);
     if (draws_.contains(half)) draws_.remove(half);
   }
