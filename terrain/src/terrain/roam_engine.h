@@ -53,8 +53,10 @@ class RoamEngine {
   /// Visible leaves that merge() would take away; negative when it brings more into sight than it removes.
   int merge_gain(uint32_t node) const;
 
-  /// At least the priorities of the visible leaves, and what they are off where their corners move.
+  /// As RoamMesh::bound_px(): what visible leaves are off at most, moving corners included.
   float bound_px() const;
+  /// At least the priorities of the visible leaves, which are thicknesses: about twice what resting ones are off.
+  float greatest_priority() const;
   Expected<void> validate() const;
 
   const RoamTree& tree() const { return tree_; }
@@ -206,8 +208,8 @@ class RoamEngine {
   void finish_falls_now(uint32_t most_visible);
   void finish_motions_now();
   void count_falling_surplus();
-  float moved_priority() const;
-  float moved_priority(uint32_t node, uint32_t vertex) const;
+  float moved_error(float rest) const;
+  float moved_error(uint32_t node, uint32_t vertex, float rest, float worst) const;
   bool centre_moves(uint32_t node) const {
     return !options_.plain && tree_.vertices.moves(tree_.corner[tree_.child[node]].apex);
   }
@@ -223,6 +225,7 @@ class RoamEngine {
   bool end_rises_for(uint32_t leaf);
   uint32_t unmet_claims() const;
   float bound_of(const BucketQueue& queue) const;
+  float target_priority() const { return options_.target_px > 0 ? projection_.priority_of(options_.target_px) : 0; }
 
   // The surface: roam_surface.cpp.
   void read_surface_again();

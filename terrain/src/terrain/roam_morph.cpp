@@ -9,16 +9,33 @@
 // Why bound_px() holds. A drawn triangle is flat between its three corners, which are drawn o_i above or below where
 // they stand on the surface. Over it the finest surface is at most the leaf's bound b above or below the plane through
 // the places where the corners are to stand; the drawn triangle is off that plane by the o_i, interpolated, which is at
-// most o, the largest |o_i|. So from what is drawn to the surface it is at most b + o. How a vertex came to be where it
-// is drawn, and what its neighbours do, does not matter.
+// most o, the largest |o_i|. So on one vertical the drawn point is f and the surface g off the plane, |f| <= o and
+// |g| <= b. How a vertex came to be where it is drawn, and what its neighbours do, does not matter.
 //
-// In pixels: with N and the depths w of roam_projection.h, C what a metre of height changes of the depth, points of one
-// vertical that stand f and g off the plane are N |f - g| / ((w + C f)(w + C g)) apart, which rises with |f - g|. For
-// o <= b that is greatest at f = b, g = -b: the priority of the leaf at rest, which the queues know. For o > b it is
-// N (b + o) / ((w - |C| o)(w + |C| b)): Projection::moved_priority(). At birth o is at most what the split adds, so
-// this is below the priority of the triangle that was split, and it falls from there.
+// In pixels: with N and the depths w of roam_projection.h, C what a metre of height changes of the depth, c = |C|, the
+// two are N |f - g| / ((w + C f)(w + C g)) apart: the difference of a function of height that rises throughout. So it
+// is greatest for f and g at opposite ends, where the denominator is (w + C o)(w - C b) or (w - C o)(w + C b). With m
+// the larger and l the lesser of o and b the smaller of these is w^2 - c (m - l) w - c^2 m l = (w - c m)(w + c l), and
+//   error <= N (b + o) / ((w - c m)(w + c l)):  Projection::moved_error().
+// N is the same all along a vertical and convex over the triangle, the denominator rises with w: as for priorities the
+// largest N and the least w of the corners bound it for all of the triangle.
 //
-// All triangles with a corner at a vertex lie in the diamond whose centre it is: a handful of leaves, four at first.
+// At rest (o = 0) that is N b / (w (w - c b)) = p (1 + r) / 2, p = 2 N b / ((w - c b)(w + c b)) the leaf's priority and
+// r = c b / w < 1 unless p is the artificial maximum. How large r can be follows from p. Let c > 0; verticals then
+// vanish at the point (A / C, B / C) of the screen, and N = |(A w - C x, B w - C y)| = c w s, where s is the distance
+// in pixels from there to the image of the point whose depth is w. One with an image in the viewport has s >= d, the
+// viewport's distance to the vanishing point. If any point within the wedgie is seen, its depth is at least w - c b for
+// the least w of the corners, so the largest N of these is at least c d (w - c b), and
+//   p >= 2 d c b / (w + c b) = 2 d r / (1 + r),  so  1 + r <= 1 / (1 - p / (2 d))  while p < 2 d.
+// The error is at most p / (2 - p / d) for p < d, and at most p in any case (r < 1). Both rise with p, so what holds
+// for the largest priority K of the leaves holds for all of them: Projection::largest_error(). Where c = 0 (a level
+// view, an orthographic one) r = 0: K / 2, as for d without end. Where the vanishing point is on screen, d = 0: K. A
+// leaf with nothing to see in its wedgie has no error to count.
+//
+// Of leaves that move, with t = o / b <= 1: moved_error() is p (1 + t)(1 + r) / (2 (1 + t r)), at most 1 + t times the
+// bound at rest; only those for which that exceeds what has been found are projected. They are found from the vertices
+// that move: all triangles with a corner at a vertex lie in the diamond whose centre it is, a handful of leaves, four
+// at first. At birth the drawn triangle lies in that which was split, and from there what it is off falls.
 #include <algorithm>
 
 #include "roam_engine.h"
@@ -176,31 +193,33 @@ bool RoamEngine::lasts(const Motion& motion) const {
          tree_.corner[tree_.child[motion.node]].apex == motion.vertex;
 }
 
-// The largest over the visible leaves at `vertex`, a corner of `node`, whose other corners are drawn no farther off.
-float RoamEngine::moved_priority(uint32_t node, uint32_t vertex) const {
-  if (!is_visible(node)) return 0;
+// The largest over the visible leaves at `vertex`, a corner of `node`, whose other corners are drawn no farther off;
+// `worst` when none is larger.
+float RoamEngine::moved_error(uint32_t node, uint32_t vertex, float rest, float worst) const {
+  if (!is_visible(node)) return worst;
   const Corners& c = tree_.corner[node];
   if (!tree_.is_leaf(node)) {
     const uint32_t child = tree_.child[node];
-    if (vertex == c.left) return moved_priority(child, vertex);
-    if (vertex == c.right) return moved_priority(child + 1, vertex);
-    return std::max(moved_priority(child, vertex), moved_priority(child + 1, vertex));
+    if (vertex != c.right) worst = moved_error(child, vertex, rest, worst);
+    return vertex != c.left ? moved_error(child + 1, vertex, rest, worst) : worst;
   }
   const float off = tree_.vertices.off_surface(vertex);
-  if (off <= c.bound) return 0;
+  if (off <= c.bound && (c.bound + off) * rest <= c.bound * worst) return worst;
   for (const uint32_t corner : {c.apex, c.left, c.right})
-    if (tree_.vertices.off_surface(corner) > off) return 0;
-  return projection_.moved_priority(wedgie_[node], off);
+    if (tree_.vertices.off_surface(corner) > off) return worst;
+  return std::max(worst, projection_.moved_error(wedgie_[node], off));
 }
 
-float RoamEngine::moved_priority() const {
-  float worst = 0;
+// The largest of what moves, and of what rests, which is at most `rest`.
+float RoamEngine::moved_error(float rest) const {
+  if (rest >= RoamMesh::k_artificial_max) return rest;
+  float worst = rest;
   for (const Motion& motion : motions_) {
     if (!lasts(motion)) continue;
     for (const uint32_t half : {motion.node, tree_.neighbour[motion.node].base}) {
       if (half == k_none) continue;
       for (uint32_t child = tree_.child[half]; child <= tree_.child[half] + 1; ++child)
-        worst = std::max(worst, moved_priority(child, motion.vertex));
+        worst = moved_error(child, motion.vertex, rest, worst);
     }
   }
   return worst;

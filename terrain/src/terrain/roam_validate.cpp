@@ -252,7 +252,7 @@ class Validator {
       const uint32_t found = crossed(t_.child[node], vertex);
       return found != k_none ? found : crossed(t_.child[node] + 1, vertex);
     }
-    if (e_.moved_priority(node, vertex) < RoamMesh::k_artificial_max) return k_none;
+    if (e_.moved_error(node, vertex, 0, 0) < RoamMesh::k_artificial_max) return k_none;
     return e_.measure(node).priority < RoamMesh::k_artificial_max ? node : k_none;
   }
 
