@@ -185,7 +185,9 @@ void expect_smooth(const Path& path) {
   EXPECT_GT(smooth.compared, 100000);
   EXPECT_GT(smooth.changes, 1000);
   // The mesh before an update and the one after it are the same surface at the same time.
-  EXPECT_LT(smooth.most_torn, 1e-3);
+  // But for motions that end because the eye comes near: what is left of them is not seen.
+  EXPECT_LT(smooth.most_torn, 1e-2);
+  EXPECT_LT(smooth.most_torn_px, 1e-2);
   EXPECT_GT(jumping.most_torn, 0.1);
   // What is split has at most some more than the bound at rest, and moves in 15 frames.
   EXPECT_LT(smooth.most_px, 1.25 * jumping.most_bound / (0.25 / k_frame_s));
@@ -260,6 +262,38 @@ TEST(RoamMorph, BoundHoldsWhileReliefMoves) {
   EXPECT_LE(moving, 1.5 * resting);
 }
 
+// What began to move far ahead has ended its motion when the eye gets there.
+TEST(RoamMorph, MotionNearTheEyeLeavesTheBoundWhatItIsAtRest) {
+  roam_support::TerrainOptions size;
+  size.columns = size.rows = 257;
+  size.spacing = 5;
+  size.relief_m = 100;
+  size.octaves = 9;
+  size.wavelength = 400;
+  const Terrain terrain = make_terrain(size);
+  RoamOptions options;
+  options.max_triangles = 8000;
+  RoamMesh moving = make_mesh(terrain, options), resting = make_mesh(terrain, options);
+  uint64_t moved = 0;
+  double most = 0;
+  for (int frame = 0; frame < 240; ++frame) {
+    const double t = frame * k_frame_s;
+    const glm::dvec2 xy = glm::dvec2(-400, -300) + 200.0 * t * glm::dvec2(0.8, 0.6);
+    const View view = View::look({xy, terrain.field->height(xy) + 3}, 0.6435 + 0.2 * std::sin(t), -0.05, 0.87,
+                                 {1920, 1080}, 0.5, 60000);
+    const auto stats = moving.update(view, t);
+    ASSERT_TRUE(stats.has_value() && resting.update(view).has_value());
+    moved += stats->moving;
+    ASSERT_LT(resting.bound_px(), RoamMesh::k_artificial_max) << "frame " << frame;
+    ASSERT_LT(moving.bound_px(), 3 * resting.bound_px()) << "frame " << frame;
+    most = std::max(most, double(moving.bound_px() / resting.bound_px()));
+    const auto valid = moving.validate();
+    ASSERT_TRUE(valid.has_value()) << "frame " << frame << ": " << valid.error().message;
+  }
+  std::printf("bound moving / at rest: at most %.2f; %.0f vertices moving\n", most, double(moved) / 240);
+  EXPECT_GT(moved, 240u * 50);
+}
+
 TEST(RoamMorph, ComesToRestWithinHalfASecond) {
   const Terrain terrain = make_terrain({});
   RoamOptions options;
@@ -292,7 +326,8 @@ TEST(RoamMorph, ComesToRestWithinHalfASecond) {
     }
     roam_reference::GreedyMesh greedy(*terrain.bounds, view);
     const double best = greedy.refine(decided, 0);
-    ASSERT_LE(mesh.bound_px(), best * (1 + double(options.hysteresis)) * (1 + 1e-5)) << "stop " << stop;
+    const double most = roam_reference::error_of(view, best * (1 + double(options.hysteresis)));
+    ASSERT_LE(mesh.bound_px(), most * (1 + 2e-5)) << "stop " << stop;
   }
   EXPECT_GT(moved, 500);
 }

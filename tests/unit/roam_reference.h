@@ -25,6 +25,17 @@ struct Triangle {
   }
 };
 
+/// How far triangles of a priority (the thickness of their wedgies) may be from the surface, which is at one side of
+/// them: the share depends on how far off screen verticals vanish.
+inline double error_of(const sward::View& view, double priority) {
+  if (priority >= double(sward::RoamMesh::k_artificial_max)) return priority;
+  const glm::dvec4 up = view.clip_from_relative() * glm::dvec4(0, 0, 1, 0);
+  if (up.w == 0) return priority / 2;
+  const glm::dvec2 half = 0.5 * glm::dvec2(view.viewport), vanishing = half * glm::dvec2(up) / up.w;
+  const double off = glm::distance(vanishing, glm::clamp(vanishing, -half, half));
+  return priority < off ? priority / (2 - priority / off) : priority;
+}
+
 /// Starts from the roots and splits the worst visible triangle for as long as the budget allows. Triangles are found by
 /// their diamond's centre: the other half of a diamond is its mirror image in the base, and where that does not exist
 /// yet, the leaf on that side has the mirror image's apex for a centre.

@@ -14,6 +14,7 @@ namespace {
 
 using drawn_surface::Errors;
 using drawn_surface::measure;
+using roam_reference::error_of;
 using roam_support::make_terrain;
 using roam_support::Random;
 using roam_support::random_view;
@@ -206,9 +207,9 @@ void compare_with_greedy(float hysteresis, double allowed, bool equal) {
     settle(mesh, view);
     roam_reference::GreedyMesh greedy(*terrain.bounds, view);
     const double best = greedy.refine(options.max_triangles, 0);
-    ASSERT_LE(mesh.bound_px(), best * allowed * (1 + 1e-5)) << "view " << i;
+    ASSERT_LE(mesh.bound_px(), error_of(view, best * allowed) * (1 + 2e-5)) << "view " << i;
     bounded += best > 0 && best < RoamMesh::k_artificial_max;
-    different += mesh.bound_px() < best * (1 - 1e-5);
+    different += mesh.bound_px() < error_of(view, best) * (1 - 1e-5);
   }
   EXPECT_GT(bounded, 150);
   // A split that takes more triangles out of sight than it makes may let the incremental mesh go on where a top-down
@@ -278,7 +279,10 @@ TEST(RoamMesh, StopsAtTheTargetAndGivesUpWhatIsFiner) {
     settle(mesh, view);
     const auto stats = mesh.update(view);
     roam_reference::GreedyMesh greedy(*terrain.bounds, view);
-    greedy.refine(options.max_triangles, double(options.target_px));
+    // The largest thickness of which the error is at most the target.
+    double thickness = 2 * double(options.target_px);
+    while (error_of(view, thickness) > double(options.target_px)) thickness *= 0.999;
+    greedy.refine(options.max_triangles, thickness);
     EXPECT_LE(stats->visible, greedy.visible() * 1.1 + 8) << "view " << i;
     ASSERT_EQ(fault_of(mesh), "");
   }

@@ -35,6 +35,8 @@ class Calendar {
     const uint32_t tick = uint32_t(now_ + double(ticks > 0 ? std::min(ticks, float(k_span - 1)) : 0.0f));
     return tick <= uint32_t(now_) || tick < read_ ? 0 : tick;
   }
+  /// Whether what held up to a tick has to be looked at again.
+  bool past(uint32_t tick) const { return tick <= uint32_t(now_); }
   void enter(uint32_t node, uint32_t tick) {
     Head& head = heads_[tick % k_span];
     if (head.block == k_nil || head.count == k_in_block) {

@@ -371,10 +371,7 @@ bool RoamEngine::diamond_claimed(uint32_t node) const {
 void RoamEngine::stand(uint32_t node) {
   if (!centre_moves(node)) return;
   if (state_[node].cull & k_falling) stop_fall(node);
-  const uint32_t vertex = tree_.corner[tree_.child[node]].apex;
-  tree_.vertices.end_motion(vertex);
-  tree_.vertices.reread(tree_.surface(), vertex);
-  refresh_diamond(node);
+  stand_still(node);
 }
 
 // Triangles on their way out make room at once for what is claimed; false when they do not.

@@ -131,11 +131,15 @@ void RoamEngine::merge(uint32_t node) {
   draws_.close();
 }
 
-float RoamEngine::bound_px() const {
+float RoamEngine::greatest_priority() const {
   float worst = 0;
   for (const BucketQueue* queue : {&split_queue_, &blocked_queue_}) worst = std::max(worst, bound_of(*queue));
   if (!leaf_calendar_.empty()) worst = std::max(worst, leaf_guard_);
-  return std::max(worst, moved_priority());
+  return worst;
+}
+
+float RoamEngine::bound_px() const {
+  return moved_error(projection_.largest_error(greatest_priority()));
 }
 
 }  // namespace sward::roam

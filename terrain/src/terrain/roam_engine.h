@@ -53,8 +53,10 @@ class RoamEngine {
   /// Visible leaves that merge() would take away; negative when it brings more into sight than it removes.
   int merge_gain(uint32_t node) const;
 
-  /// At least the priorities of the visible leaves, and what they are off where their corners move.
+  /// As RoamMesh::bound_px(): what visible leaves are off at most, moving corners included.
   float bound_px() const;
+  /// At least the priorities of the visible leaves, which are thicknesses: about twice what resting ones are off.
+  float greatest_priority() const;
   Expected<void> validate() const;
 
   const RoamTree& tree() const { return tree_; }
@@ -194,6 +196,12 @@ class RoamEngine {
   void set_time(double time_s);
   bool morphs() const { return now_.has_value() && options_.morph_s > 0 && !options_.plain && !from_nothing_; }
   double seconds_left() const;
+  float clear_ticks(uint32_t node, double from_z, double to_z) const;
+  float modest() const;
+  float modest_ticks(uint32_t node) const;
+  void move_centre(uint32_t node, double from_z, double to_z, float seconds, float clear_ticks);
+  void stand_still(uint32_t node);
+  void forget_clearances();
   void rise(uint32_t node, double from_z);
   void fall(uint32_t node);
   void stop_fall(uint32_t node);
@@ -201,8 +209,8 @@ class RoamEngine {
   void finish_falls_now(uint32_t most_visible);
   void finish_motions_now();
   void count_falling_surplus();
-  float moved_priority() const;
-  float moved_priority(uint32_t node, uint32_t vertex) const;
+  float moved_error(float rest) const;
+  float moved_error(uint32_t node, uint32_t vertex, float rest, float worst) const;
   bool centre_moves(uint32_t node) const {
     return !options_.plain && tree_.vertices.moves(tree_.corner[tree_.child[node]].apex);
   }
@@ -218,6 +226,7 @@ class RoamEngine {
   bool end_rises_for(uint32_t leaf);
   uint32_t unmet_claims() const;
   float bound_of(const BucketQueue& queue) const;
+  float target_priority() const { return options_.target_px > 0 ? projection_.priority_of(options_.target_px) : 0; }
 
   // The surface: roam_surface.cpp.
   void read_surface_again();
@@ -255,6 +264,7 @@ class RoamEngine {
 
   // Deferral.
   float leaf_guard_ = 0, diamond_guard_ = RoamMesh::k_artificial_max;
+  float balance_ = RoamMesh::k_artificial_max;  // that the guards followed last
   Calendar out_calendar_, leaf_calendar_, diamond_calendar_;
   TickUnits units_, safe_units_;
   float peak_metres_ = 0, peak_radians_ = 0;  // of the last seconds, per update
@@ -283,10 +293,12 @@ class RoamEngine {
   struct Motion {
     uint32_t node;  // half of the diamond whose centre moves
     uint32_t vertex;
-    double arrives;  // not before this time
-    bool falls;      // or did once
+    double arrives;        // not before this time
+    uint32_t clear_until;  // the tick of out_calendar_ up to which it need not be looked at
+    bool falls;            // or did once
   };
   bool lasts(const Motion& motion) const;
+  bool stays_clear(Motion& motion) const;
   std::vector<Motion> motions_;
   int64_t falling_surplus_ = 0;  // drawn triangles that are gone once all falls have ended
 

@@ -119,6 +119,7 @@ void RoamEngine::start_over() {
 // still is has not changed and is not visited.
 void RoamEngine::look_at_all() {
   for (Calendar* calendar : {&out_calendar_, &leaf_calendar_, &diamond_calendar_}) calendar->clear();
+  forget_clearances();
   hot_leaves_.clear();
   hot_diamonds_.clear();
   hot_outs_.clear();
@@ -383,7 +384,7 @@ void RoamEngine::look_at_lingering() {
 // Steps double within an update, so that a mesh with room to spare is reached in few of them.
 void RoamEngine::lower_leaf_guard() {
   const double ticks = double(k_first_guard_ticks) * std::exp2(double(leaf_guard_steps_++));
-  const float lowest = options_.target_px;
+  const float lowest = target_priority();
   const bool all = leaf_calendar_.empty() || ticks >= Calendar::k_span;
   leaf_guard_ = all ? lowest : std::max(lowest, leaf_guard_ * float(std::exp(-ticks * double(safe_units_.log_guard))));
   leaf_calendar_.advance(all ? 2.0 * Calendar::k_span : ticks);
@@ -404,8 +405,9 @@ void RoamEngine::follow_balance() {
   if (options_.plain || !balanced_) return;
   const uint32_t worst = split_queue_.highest(state_);
   const float highest = worst == k_none ? 0 : state_[worst].key;
-  const float now = std::max(highest, options_.target_px);
+  const float now = std::max(highest, target_priority());
   if (!(now > 0) || now >= RoamMesh::k_artificial_max) return;
+  balance_ = now;
   const float step = k_guard_ticks_a_frame * units_.log_guard;
   float leaf = leaf_guard_;
   if (leaf > k_leaf_highest * now) {

@@ -38,6 +38,8 @@ namespace {
 constexpr double k_infinitely_inside = 1e30;
 // Of single precision, over the arithmetic below.
 constexpr float k_rounding = 1.001f;
+// The same, over projections alone.
+constexpr double k_error_rounding = 1.00001;
 
 double size_of_bivector(glm::dvec4 a, glm::dvec4 b) {
   return glm::length(glm::cross(glm::dvec3(a), glm::dvec3(b)));
@@ -67,6 +69,10 @@ Projection::Projection(const View& view) : eye_(view.eye) {
   for (size_t i = 0; i < Forms::k_forms; ++i)
     form_[i] = {all(float(forms[i].x)), all(float(forms[i].y)), all(float(forms[i].z)), all(float(forms[i].w))};
   depth_per_metre_ = float(std::abs(to_w.z));
+  if (to_w.z != 0) {
+    const glm::dvec2 beyond = glm::abs(glm::dvec2(to_x.z, to_y.z) / to_w.z) - 0.5 * glm::dvec2(view.viewport);
+    vanishing_px_ = glm::length(glm::max(beyond, 0.0));
+  }
   x_axis_ = glm::vec3(forms[Forms::k_x]);
   y_axis_ = glm::vec3(forms[Forms::k_y]);
   w_axis_ = glm::vec3(forms[8]);
@@ -139,16 +145,55 @@ SWARD_INLINE void Projection::measure_thickness(Four& f) const {
   f.nearest = smaller(f.w[0], smaller(f.w[1], f.w[2]));
 }
 
-float Projection::moved_priority(const Wedgie& wedgie, float offset) const {
+float Projection::clear_ticks(const Wedgie& wedgie, float reach, const TickUnits& units) const {
+  constexpr float k_rounding_per_metre = 1e-6f;
+  const glm::vec3 apex(wedgie.apex - eye_);
+  const std::array<glm::vec3, 3> corners{apex, apex + wedgie.to_left, apex + wedgie.to_right};
+  float range = 0;
+  for (const glm::vec3& p : corners) range = std::max(range, glm::length(p));
+  range += reach;
+  const float margin = k_rounding_per_metre * range;
+  const auto lasts = [&](float slack) { return slack / (units.metres + units.radians * (range + slack)); };
+  const auto sides = [&](int i) {
+    const auto at = [&](const glm::vec3& p) {
+      return form_x_[i] * p.x + form_y_[i] * p.y + form_z_[i] * p.z + form_1_[i];
+    };
+    return std::array<float, 3>{at(corners[0]), at(corners[1]), at(corners[2])};
+  };
+  const std::array<float, 3> near = sides(4);
+  const float inside = *std::min_element(near.begin(), near.end()) - reach * reach_[4] - margin;
+  if (inside >= 0) return lasts(inside);
+  float outside = 0;
+  for (int i = 0; i < Forms::k_sides; ++i) {
+    const std::array<float, 3> side = sides(i);
+    outside = std::max(outside, -*std::max_element(side.begin(), side.end()) - reach * reach_[i] - margin);
+  }
+  return outside > 0 ? lasts(outside) : -1;
+}
+
+// roam_morph.cpp.
+float Projection::largest_error(float priority) const {
+  if (priority >= RoamMesh::k_artificial_max) return RoamMesh::k_artificial_max;
+  const double p = double(priority);
+  return cap(float(k_error_rounding * (p < vanishing_px_ ? p / (2 - p / vanishing_px_) : p)));
+}
+
+float Projection::priority_of(float error) const {
+  const double e = double(error) / (k_error_rounding * k_error_rounding);
+  return float(e < vanishing_px_ ? 2 * e / (1 + e / vanishing_px_) : e);
+}
+
+float Projection::moved_error(const Wedgie& wedgie, float offset) const {
   const Wedgie* const one = &wedgie;
   Four f = place({&one, 1});
   measure_sides(f);
   if (f.outside[0] < 0) return 0;
   measure_thickness(f);
-  const float nearest = f.nearest[0], near_inside = f.near_inside[0] - (offset - wedgie.bound) * reach_.side(4);
-  const float above = nearest - offset * depth_per_metre_, below = nearest + wedgie.bound * depth_per_metre_;
+  const float most = std::max(wedgie.bound, offset), least = std::min(wedgie.bound, offset);
+  const float near_inside = f.near_inside[0] - (most - wedgie.bound) * reach_.side(4);
+  const float above = f.nearest[0] - most * depth_per_metre_, below = f.nearest[0] + least * depth_per_metre_;
   if (near_inside < 0 || above <= 0 || above * below <= 0) return RoamMesh::k_artificial_max;
-  return cap((wedgie.bound + offset) * std::sqrt(f.square[0]) / (above * below));
+  return cap(float(k_error_rounding) * (most + least) * std::sqrt(f.square[0]) / (above * below));
 }
 
 SWARD_INLINE Lanes Projection::priority(const Four& f) const {

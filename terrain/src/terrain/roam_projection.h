@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 
 #include "roam_calendar.h"
@@ -108,10 +109,19 @@ class Projection {
   /// Motion so far, from the view of `before` within so many ticks: it is expected to go on.
   void expect(const Projection& before, double ticks);
 
-  /// The largest distance in pixels between a drawn triangle, whose corners are up to `offset` metres from where the
-  /// wedgie has them, and the surface within that, where offset > its bound. The artificial maximum when either may
-  /// cross the near plane; 0 when the wedgie is out.
-  float moved_priority(const Wedgie& wedgie, float offset) const;
+  /// For how many ticks nothing in sight up to `reach` metres above or below the wedgie's triangle crosses the near
+  /// plane; negative when something may now.
+  float clear_ticks(const Wedgie& wedgie, float reach, const TickUnits& units) const;
+
+  /// The largest distance in pixels between triangles and the surface in their wedgies over all in sight whose priority
+  /// is at most `priority`: between a half and all of it, because the triangle lies in the wedgie's middle. The
+  /// artificial maximum for that.
+  float largest_error(float priority) const;
+  /// The largest priority of which largest_error() is at most so many pixels.
+  float priority_of(float error) const;
+  /// The same distance for a drawn triangle whose corners are up to `offset` metres from where the wedgie has them. The
+  /// artificial maximum when it or the surface may cross the near plane; 0 when the wedgie is out.
+  float moved_error(const Wedgie& wedgie, float offset) const;
 
  private:
   struct Four;
@@ -148,6 +158,8 @@ class Projection {
   Forms form_x_{}, form_y_{}, form_z_{}, form_1_{};
   Forms reach_{};              // |n.z| of the halfspaces
   float depth_per_metre_ = 0;  // |C|
+  // From the viewport to the point at which verticals vanish.
+  double vanishing_px_ = std::numeric_limits<double>::infinity();
   // The same forms, each in all lanes, and the changes of those of the halfspaces a tick, as expected.
   struct Form {
     Lanes x{}, y{}, z{}, one{};

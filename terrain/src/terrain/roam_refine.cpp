@@ -84,7 +84,7 @@ void RoamEngine::split_one(uint32_t node) {
     if (!is_visible(half)) continue;
     seen = true;
     const NodeState& s = state_[half];
-    near |= morphs() && (s.queued() ? s.key : read(half).priority) >= RoamMesh::k_artificial_max;
+    near |= morphs() && (s.queued() ? s.key : read(half).priority) > modest();
     unplace(half);
     if (draws_.contains(half)) draws_.remove(half);
   }
@@ -225,8 +225,8 @@ uint32_t RoamEngine::worst_leaf() {
   for (;;) {
     const uint32_t worst = split_queue_.highest(state_);
     const float key = worst == k_none ? 0.0f : state_[worst].key;
-    if (key >= leaf_guard_ || leaf_guard_ <= options_.target_px)
-      return worst != k_none && key > options_.target_px ? worst : k_none;
+    if (key >= leaf_guard_ || leaf_guard_ <= target_priority())
+      return worst != k_none && key > target_priority() ? worst : k_none;
     lower_leaf_guard();
   }
 }
@@ -328,7 +328,7 @@ void RoamEngine::give_up(uint32_t node) {
 // With a target in pixels, what is finer than it by more than the hysteresis is given up.
 void RoamEngine::trim_below_target() {
   if (options_.target_px <= 0) return;
-  const float limit = options_.target_px / (1 + options_.hysteresis);
+  const float limit = target_priority() / (1 + options_.hysteresis);
   while (!out_of_time()) {
     uint32_t victim = hidden_merges_left_ > 0 ? merge_queue_.unprioritised() : k_none;
     if (victim == k_none) {

@@ -42,6 +42,7 @@ void RoamEngine::read_surface_again() {
     for (const Visit& visit : visits_) look_again(visit.node);
   }
   changes_.clear();
+  forget_clearances();
   settled_ = false;
   ask_again_what_splits();
 }

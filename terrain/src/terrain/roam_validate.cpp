@@ -228,13 +228,32 @@ class Validator {
     require(!e_.settled_ || visible_ <= e_.options_.max_triangles, 0, "the budget is exceeded");
   }
 
-  // bound_px() finds what moves by the list of motions.
+  // bound_px() finds what moves by the list of motions. None crosses the near plane in the present view.
   void check_motions() {
     std::vector<bool> listed(t_.vertices.lattice.size());
-    for (const auto& motion : e_.motions_)
-      if (e_.lasts(motion)) listed[motion.vertex] = true;
+    for (const auto& motion : e_.motions_) {
+      if (!e_.lasts(motion)) continue;
+      listed[motion.vertex] = true;
+      if (t_.vertices.arrival(motion.vertex) != motion.arrives) continue;
+      const VertexPool::Motion& moves = t_.vertices.points[motion.vertex].motion;
+      require(e_.clear_ticks(motion.node, moves.from_z, moves.to_z) >= 0, motion.node,
+              "moves where it may cross the near plane");
+      for (const uint32_t half : {motion.node, t_.neighbour[motion.node].base})
+        require(half == k_none || crossed(half, motion.vertex) == k_none, motion.node,
+                "has a moving corner of a triangle without a bound");
+    }
     for (uint32_t vertex = 0; vertex < listed.size(); ++vertex)
       require(listed[vertex] || !t_.vertices.alive[vertex] || !t_.vertices.moves(vertex), 0, "lost a motion");
+  }
+
+  // A leaf at `vertex` below `node` that has the artificial maximum while it moves and not at rest.
+  uint32_t crossed(uint32_t node, uint32_t vertex) const {
+    if (!t_.is_leaf(node)) {
+      const uint32_t found = crossed(t_.child[node], vertex);
+      return found != k_none ? found : crossed(t_.child[node] + 1, vertex);
+    }
+    if (e_.moved_error(node, vertex, 0, 0) < RoamMesh::k_artificial_max) return k_none;
+    return e_.measure(node).priority < RoamMesh::k_artificial_max ? node : k_none;
   }
 
   const RoamEngine& e_;

@@ -15,7 +15,7 @@ namespace sward {
 struct RoamOptions {
   /// Most triangles drawn in a frame, those of the root mesh included.
   uint32_t max_triangles = 20000;
-  /// Stop refining when the bound is at most this many pixels. 0: spend the whole budget.
+  /// Stop refining when RoamMesh::bound_px() at rest is at most this many pixels. 0: spend the whole budget.
   float target_px = 0;
   /// An exchange (one merge for one split) is made only if it lowers the maximum by more than this share.
   float hysteresis = 0.01f;
@@ -89,9 +89,11 @@ class RoamMesh {
   Expected<void> set_options(const RoamOptions& options);
   const RoamOptions& options() const;
 
-  /// Proven bound of the projected error of what the last update draws, over its visible leaves, pixels: the thickness
-  /// of their wedgies, and for those whose corners move the distance to the surface that these have left as well.
-  /// k_artificial_max when a wedgie crosses the near plane. Cost: some half a microsecond a moving vertex.
+  /// Proven bound of the projected error of what the last update draws, over its visible leaves, pixels: the distance
+  /// from each triangle to the surface, which its wedgie bounds at either side, so between a half and all of the
+  /// largest wedgie's thickness (Duchaineau et al. 1997, 6.2); for those whose corners move the distance to the surface
+  /// that these have left as well. k_artificial_max when a wedgie crosses the near plane. Cost: about a microsecond a
+  /// moving vertex.
   float bound_px() const;
   static constexpr float k_artificial_max = 1.0e9f;
 
