@@ -20,12 +20,6 @@ std::string name_of(const char* what, uint64_t id) {
 
 }  // namespace
 
-glm::dvec2 HostPriorities::to_lattice(glm::dvec2 xy) const {
-  const glm::dvec2 samples = (xy - glm::dvec2(lattice_.origin)) / lattice_.spacing;
-  return glm::dvec2(samples.x + 0.5 * (lattice_.columns - 1), 0.5 * (lattice_.rows - 1) - samples.y) *
-         double(lattice_.sample_step());
-}
-
 Expected<HostPriorities::Place> HostPriorities::place_of(const NamedPoint& point) const {
   const std::string name = name_of("point", point.id);
   if (!finite({point.xy, 0})) return fail(name + ": its coordinates must be finite");
@@ -42,7 +36,8 @@ Expected<HostPriorities::Place> HostPriorities::place_of(const NamedPoint& point
 Expected<HostPriorities::Place> HostPriorities::place_of(const NamedLine& line) const {
   if (!finite(line.from) || !finite(line.to))
     return fail(name_of("line", line.id) + ": its coordinates must be finite");
-  return Place{Kind::line, to_lattice(line.from), to_lattice(line.to), line.from.z, line.to.z, 0};
+  const glm::dvec2 from = lattice_.extended_from_world(line.from), to = lattice_.extended_from_world(line.to);
+  return Place{Kind::line, from, to, line.from.z, line.to.z, 0};
 }
 
 Expected<void> HostPriorities::add(const NamedPoint& point) {

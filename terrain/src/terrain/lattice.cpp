@@ -7,9 +7,23 @@
 
 namespace sward {
 
+namespace {
+
+// Column and row of a world position, fractions included.
+glm::dvec2 sample_at(const Lattice& l, glm::dvec2 xy) {
+  return {(xy.x - l.origin.x) / l.spacing.x + 0.5 * (l.columns - 1),
+          0.5 * (l.rows - 1) - (xy.y - l.origin.y) / l.spacing.y};
+}
+
+}  // namespace
+
+glm::dvec2 Lattice::extended_from_world(glm::dvec2 xy) const {
+  return sample_at(*this, xy) * double(sample_step());
+}
+
 glm::dvec2 Lattice::from_world(glm::dvec2 xy) const {
-  const double column = (xy.x - origin.x) / spacing.x + 0.5 * (columns - 1);
-  const double row = 0.5 * (rows - 1) - (xy.y - origin.y) / spacing.y;
+  const glm::dvec2 sample = sample_at(*this, xy);
+  const double column = sample.x, row = sample.y;
   // A point computed to lie on the border may come out a rounding error beyond it.
   constexpr double k_slack = 1e-7;
   const double last_column = columns - 1, last_row = rows - 1;

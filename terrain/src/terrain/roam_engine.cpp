@@ -33,9 +33,7 @@ Expected<void> check_options(const RoamOptions& options, uint32_t drawable_roots
 
 RoamEngine::RoamEngine(const Surface& surface, const RoamOptions& options) : tree_(surface), options_(options) {
   tree_.vertices.rebase(tree_.lattice().origin);
-  grow_arrays();
-  for (uint32_t vertex = 0; vertex < tree_.vertices.points.size(); ++vertex) take_vertex(vertex);
-  for (uint32_t root = 0; root < tree_.root_count(); ++root) take_node(root);
+  take_roots();
 }
 
 Expected<void> RoamEngine::set_options(const RoamOptions& options) {

@@ -79,23 +79,24 @@ class RoamEngine {
     seen.view = view_number_;
     return forms;
   }
-  /// Up to four nodes side by side.
-  void read(std::span<const uint32_t> nodes, Projection::Wanted wanted, Reading* readings) const {
+  /// Up to four nodes side by side, as if nothing claimed them.
+  void measure(std::span<const uint32_t> nodes, Projection::Wanted wanted, Reading* readings) const {
     const Wedgie* wedgies[Projection::k_together] = {};
     for (size_t i = 0; i < nodes.size(); ++i) wedgies[i] = &wedgie_[nodes[i]];
     projection_.read({wedgies, nodes.size()}, {units_, leaf_guard_, diamond_guard_}, wanted, readings);
-    // What is claimed has the artificial priority and is looked at in every update.
+  }
+  /// The same, but what is claimed has the artificial priority and is looked at in every update.
+  void read(std::span<const uint32_t> nodes, Projection::Wanted wanted, Reading* readings) const {
+    measure(nodes, wanted, readings);
     for (size_t i = 0; i < nodes.size(); ++i) {
-      if (!wedgies[i]->claimed || readings[i].out()) continue;
+      if (!wedgie_[nodes[i]].claimed || readings[i].out()) continue;
       readings[i].priority = RoamMesh::k_artificial_max;
       readings[i].below = readings[i].above = 0;
     }
   }
-  /// Of one node, as if nothing claimed it.
   Reading measure(uint32_t node) const {
-    const Wedgie* wedgie = &wedgie_[node];
     Reading reading;
-    projection_.read({&wedgie, 1}, {units_, leaf_guard_, diamond_guard_}, Projection::k_all, &reading);
+    measure({&node, 1}, Projection::k_all, &reading);
     return reading;
   }
   Reading read(uint32_t node) const {
@@ -141,6 +142,7 @@ class RoamEngine {
   bool in_falling(uint32_t leaf) const { return state_[leaf].held; }
   void show(uint32_t leaf);
   float until_side_changes(uint32_t node, const Reading& reading, float ticks);
+  void begin_lingering();
   void note_lingering(uint32_t node);
   void place(uint32_t node, const Reading& reading);
   void unplace(uint32_t node);
@@ -165,6 +167,7 @@ class RoamEngine {
   void grow_arrays();
   void take_vertex(uint32_t vertex);
   void take_node(uint32_t node);
+  void take_roots();
 
   // Adapting: roam_refine.cpp.
   enum class Room { enough, full, later };
@@ -211,9 +214,7 @@ class RoamEngine {
   void count_falling_surplus();
   float moved_error(float rest) const;
   float moved_error(uint32_t node, uint32_t vertex, float rest, float worst) const;
-  bool centre_moves(uint32_t node) const {
-    return !options_.plain && tree_.vertices.moves(tree_.corner[tree_.child[node]].apex);
-  }
+  bool centre_moves(uint32_t node) const { return !options_.plain && tree_.vertices.moves(tree_.centre_vertex(node)); }
 
   // What the host has named: roam_claims.cpp.
   void follow_claims(bool surface_changed);
@@ -298,6 +299,7 @@ class RoamEngine {
     bool falls;            // or did once
   };
   bool lasts(const Motion& motion) const;
+  bool is_current(const Motion& motion) const;
   bool stays_clear(Motion& motion) const;
   std::vector<Motion> motions_;
   int64_t falling_surplus_ = 0;  // drawn triangles that are gone once all falls have ended

@@ -108,9 +108,7 @@ void RoamEngine::start_over() {
   falling_surplus_ = 0;
   state_.clear();
   wedgie_.clear();
-  grow_arrays();
-  for (uint32_t vertex = 0; vertex < tree_.vertices.points.size(); ++vertex) take_vertex(vertex);
-  for (uint32_t root = 0; root < tree_.root_count(); ++root) take_node(root);
+  take_roots();
   restart_claims();
   fresh_ = true;
 }
@@ -128,7 +126,7 @@ void RoamEngine::look_at_all() {
   diamond_guard_ = RoamMesh::k_artificial_max;
   safe_units_ = least_units_ = last_least_units_ = units_;
   safe_ticks_ = Calendar::k_span;
-  lingering_.clear();
+  begin_lingering();
   lingered_.clear();
   visits_.clear();
   for (uint32_t root = 0; root < tree_.root_count(); ++root) visits_.push_back({root, 0});
@@ -224,10 +222,8 @@ void gather(std::vector<uint32_t>& hot, uint32_t mark, std::vector<Calendar::Ent
 void RoamEngine::look_at_due() {
   if (lingering_ticks_ > double(k_most_patience)) {
     // Older entries have been looked at since.
-    lingering_ticks_ = 0;
-    ++lingering_list_;
     lingered_.swap(lingering_);
-    lingering_.clear();
+    begin_lingering();
   }
   const uint32_t mark = hot_mark_;
   hot_mark_ ^= 3;
@@ -363,8 +359,7 @@ void RoamEngine::look_at_diamonds() {
 // Once the view is still, what lingers at the edges of sight goes. What stays is noted again: it may go later.
 void RoamEngine::look_at_lingering() {
   lingered_.insert(lingered_.end(), lingering_.begin(), lingering_.end());
-  lingering_.clear();
-  ++lingering_list_;
+  begin_lingering();
   for (const uint32_t node : lingered_) {
     if (node >= tree_.size() || !tree_.is_alive(node)) continue;
     if (tree_.is_split(node)) {

@@ -66,7 +66,7 @@ double RoamEngine::seconds_left() const {
 // their bound off their planes, and they are drawn at most as far off these as the centre is, or it is found by another
 // motion. Their planes +- their bounds lie in the wedgies of the halves.
 float RoamEngine::clear_ticks(uint32_t node, double from_z, double to_z) const {
-  const double z = tree_.vertices.points[tree_.corner[tree_.child[node]].apex].world.z;
+  const double z = tree_.vertices.points[tree_.centre_vertex(node)].world.z;
   const auto off = float(std::max(std::abs(from_z - z), std::abs(to_z - z)));
   auto ticks = float(Calendar::k_span);
   for (const uint32_t half : {node, tree_.neighbour[node].base}) {
@@ -86,7 +86,7 @@ float RoamEngine::modest() const {
 float RoamEngine::modest_ticks(uint32_t node) const {
   const VertexPool& v = tree_.vertices;
   const Corners& c = tree_.corner[node];
-  const uint32_t vertex = tree_.corner[tree_.child[node]].apex;
+  const uint32_t vertex = tree_.centre_vertex(node);
   const double rise = v.points[vertex].world.z - 0.5 * (v.points[c.left].world.z + v.points[c.right].world.z);
   const float less = v.off_surface(vertex) - float(std::abs(rise));
   std::array<Wedgie, 2> halves;
@@ -112,7 +112,7 @@ float RoamEngine::modest_ticks(uint32_t node) const {
 }
 
 void RoamEngine::move_centre(uint32_t node, double from_z, double to_z, float seconds, float clear_ticks) {
-  const uint32_t vertex = tree_.corner[tree_.child[node]].apex;
+  const uint32_t vertex = tree_.centre_vertex(node);
   tree_.vertices.begin_motion(vertex, from_z, to_z, seconds);
   motions_.push_back(
       {node, vertex, tree_.vertices.arrival(vertex), out_calendar_.tick_after(k_unread * clear_ticks), false});
@@ -120,7 +120,7 @@ void RoamEngine::move_centre(uint32_t node, double from_z, double to_z, float se
 
 // The centre of the node's diamond stands at its height from now on.
 void RoamEngine::stand_still(uint32_t node) {
-  const uint32_t vertex = tree_.corner[tree_.child[node]].apex;
+  const uint32_t vertex = tree_.centre_vertex(node);
   tree_.vertices.end_motion(vertex);
   tree_.vertices.reread(tree_.surface(), vertex);
   refresh_diamond(node);
@@ -133,7 +133,7 @@ void RoamEngine::forget_clearances() {
 
 // The diamond has just been split; its centre was drawn at `from_z`.
 void RoamEngine::rise(uint32_t node, double from_z) {
-  const double to_z = tree_.vertices.points[tree_.corner[tree_.child[node]].apex].world.z;
+  const double to_z = tree_.vertices.points[tree_.centre_vertex(node)].world.z;
   const auto seconds = float(std::min(double(options_.morph_s), seconds_left()));
   const float ticks = double(seconds) < k_least_seconds ? -1 : clear_ticks(node, from_z, to_z);
   if (ticks < 0) return refresh_diamond(node);
@@ -146,7 +146,7 @@ void RoamEngine::fall(uint32_t node) {
   if (!morphs() || double(seconds) < k_least_seconds || diamond_claimed(node)) return merge_now(node);
   const VertexPool& v = tree_.vertices;
   const Corners& c = tree_.corner[node];
-  const double from_z = v.points[tree_.corner[tree_.child[node]].apex].world.z;
+  const double from_z = v.points[tree_.centre_vertex(node)].world.z;
   const double to_z = 0.5 * (v.points[c.left].world.z + v.points[c.right].world.z);
   const float ticks = clear_ticks(node, from_z, to_z);
   if (ticks < 0) return merge_now(node);
@@ -179,7 +179,7 @@ void RoamEngine::stop_fall(uint32_t node) {
   // Its entry in motions_ is void.
   const double seconds = std::max(std::min(double(options_.morph_s), seconds_left()), k_least_seconds);
   const VertexPool& v = tree_.vertices;
-  const uint32_t vertex = tree_.corner[tree_.child[node]].apex;
+  const uint32_t vertex = tree_.centre_vertex(node);
   const double from_z = v.drawn_z(vertex), to_z = v.points[vertex].world.z;
   const float ticks = clear_ticks(node, from_z, to_z);
   if (ticks < 0) return stand_still(node);
@@ -190,7 +190,12 @@ void RoamEngine::stop_fall(uint32_t node) {
 bool RoamEngine::lasts(const Motion& motion) const {
   const VertexPool& v = tree_.vertices;
   return v.alive[motion.vertex] && v.moves(motion.vertex) && tree_.is_split(motion.node) &&
-         tree_.corner[tree_.child[motion.node]].apex == motion.vertex;
+         tree_.centre_vertex(motion.node) == motion.vertex;
+}
+
+// False, too, when its vertex makes a later motion.
+bool RoamEngine::is_current(const Motion& motion) const {
+  return lasts(motion) && tree_.vertices.arrival(motion.vertex) == motion.arrives;
 }
 
 // The largest over the visible leaves at `vertex`, a corner of `node`, whose other corners are drawn no farther off;
@@ -227,7 +232,7 @@ float RoamEngine::moved_error(float rest) const {
 
 // Looked at anew. False, too, when the motion is not the one that its vertex makes.
 bool RoamEngine::stays_clear(Motion& motion) const {
-  if (!lasts(motion) || tree_.vertices.arrival(motion.vertex) != motion.arrives) return false;
+  if (!is_current(motion)) return false;
   const VertexPool::Motion& m = tree_.vertices.points[motion.vertex].motion;
   float ticks = clear_ticks(motion.node, m.from_z, m.to_z);
   if (ticks >= 0) ticks = std::min(ticks, modest_ticks(motion.node));
@@ -245,7 +250,7 @@ void RoamEngine::finish_motions() {
       continue;
     }
     const Motion motion = motions_[i];
-    const bool lives = lasts(motion) && (v.arrival(motion.vertex) == motion.arrives || !morphs());
+    const bool lives = morphs() ? is_current(motion) : lasts(motion);
     motions_[i] = motions_.back();
     motions_.pop_back();
     if (!lives) continue;
@@ -293,8 +298,7 @@ void RoamEngine::finish_motions_now() {
 void RoamEngine::count_falling_surplus() {
   falling_surplus_ = 0;
   for (const Motion& motion : motions_)
-    if (motion.falls && lasts(motion) && (state_[motion.node].cull & k_falling) &&
-        tree_.vertices.arrival(motion.vertex) == motion.arrives)
+    if (motion.falls && is_current(motion) && (state_[motion.node].cull & k_falling))
       falling_surplus_ += merge_gain(motion.node);
 }
 

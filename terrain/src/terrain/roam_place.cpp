@@ -9,8 +9,6 @@
 
 namespace sward::roam {
 
-namespace {}  // namespace
-
 Assessment RoamEngine::assess(uint32_t node, CullFlags inherited) const {
   const Corners& c = tree_.corner[node];
   if (!view_ || inherited & k_out || c.bound < 0) return {};
@@ -35,6 +33,13 @@ void RoamEngine::take_node(uint32_t node) {
   wedgie_[node].place(v.points[c.apex].world, v.points[c.left].world, v.points[c.right].world, c.bound);
 }
 
+// All that a tree of roots has.
+void RoamEngine::take_roots() {
+  grow_arrays();
+  for (uint32_t vertex = 0; vertex < tree_.vertices.points.size(); ++vertex) take_vertex(vertex);
+  for (uint32_t root = 0; root < tree_.root_count(); ++root) take_node(root);
+}
+
 void RoamEngine::grow_arrays() {
   const size_t nodes = tree_.size();
   if (state_.size() < nodes) {
@@ -54,8 +59,15 @@ void RoamEngine::show(uint32_t leaf) {
   draws_.add(leaf, c.apex, c.left, c.right);
 }
 
+// A new list, in which nothing is noted yet.
+void RoamEngine::begin_lingering() {
+  lingering_.clear();
+  lingering_list_ = (lingering_list_ + 1) & 0x7fffffffu;  // as many bits as nodes have for it
+  lingering_ticks_ = 0;
+}
+
 void RoamEngine::note_lingering(uint32_t node) {
-  if (wedgie_[node].lingers == (lingering_list_ & 0x7fffffffu)) return;
+  if (wedgie_[node].lingers == lingering_list_) return;
   wedgie_[node].lingers = lingering_list_ & 0x7fffffffu;
   lingering_.push_back(node);
 }

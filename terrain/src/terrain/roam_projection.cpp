@@ -75,7 +75,7 @@ Projection::Projection(const View& view) : eye_(view.eye) {
   }
   x_axis_ = glm::vec3(forms[Forms::k_x]);
   y_axis_ = glm::vec3(forms[Forms::k_y]);
-  w_axis_ = glm::vec3(forms[8]);
+  w_axis_ = glm::vec3(forms[Forms::k_w]);
   x_turn_ = glm::vec3(glm::cross(glm::dvec3(to_x), glm::dvec3(to_w)));
   y_turn_ = glm::vec3(glm::cross(glm::dvec3(to_y), glm::dvec3(to_w)));
   const auto constants = [&](glm::dvec4 a) {
@@ -145,30 +145,32 @@ SWARD_INLINE void Projection::measure_thickness(Four& f) const {
   f.nearest = smaller(f.w[0], smaller(f.w[1], f.w[2]));
 }
 
+namespace {
+
+// For how many ticks a distance of `slack` metres does not change its sign, of what is up to `range` metres away.
+SWARD_INLINE Lanes sign_ticks(Lanes slack, Lanes range, const TickUnits& units) {
+  return slack / (units.metres + units.radians * (range + slack));
+}
+
+}  // namespace
+
+// Of the farthest corner, metres.
+SWARD_INLINE Lanes Projection::range(const Four& f) const {
+  const auto square = [&](int i) { return f.px[i] * f.px[i] + f.py[i] * f.py[i] + f.pz[i] * f.pz[i]; };
+  return root(larger(square(0), larger(square(1), square(2)))) + f.bound;
+}
+
 float Projection::clear_ticks(const Wedgie& wedgie, float reach, const TickUnits& units) const {
   constexpr float k_rounding_per_metre = 1e-6f;
-  const glm::vec3 apex(wedgie.apex - eye_);
-  const std::array<glm::vec3, 3> corners{apex, apex + wedgie.to_left, apex + wedgie.to_right};
-  float range = 0;
-  for (const glm::vec3& p : corners) range = std::max(range, glm::length(p));
-  range += reach;
-  const float margin = k_rounding_per_metre * range;
-  const auto lasts = [&](float slack) { return slack / (units.metres + units.radians * (range + slack)); };
-  const auto sides = [&](int i) {
-    const auto at = [&](const glm::vec3& p) {
-      return form_x_[i] * p.x + form_y_[i] * p.y + form_z_[i] * p.z + form_1_[i];
-    };
-    return std::array<float, 3>{at(corners[0]), at(corners[1]), at(corners[2])};
-  };
-  const std::array<float, 3> near = sides(4);
-  const float inside = *std::min_element(near.begin(), near.end()) - reach * reach_[4] - margin;
-  if (inside >= 0) return lasts(inside);
-  float outside = 0;
-  for (int i = 0; i < Forms::k_sides; ++i) {
-    const std::array<float, 3> side = sides(i);
-    outside = std::max(outside, -*std::max_element(side.begin(), side.end()) - reach * reach_[i] - margin);
-  }
-  return outside > 0 ? lasts(outside) : -1;
+  Wedgie wide = wedgie;
+  wide.bound = reach;
+  const Wedgie* const one = &wide;
+  Four f = place({&one, 1});
+  measure_sides(f);
+  const Lanes distance = range(f), margin = k_rounding_per_metre * distance;
+  const Lanes inside = f.near_inside - margin, outside = -f.outside - margin;
+  if (inside[0] >= 0) return sign_ticks(inside, distance, units)[0];
+  return outside[0] > 0 ? sign_ticks(outside, distance, units)[0] : -1;
 }
 
 // roam_morph.cpp.
@@ -251,7 +253,6 @@ SWARD_INLINE Projection::Change Projection::change_of(const Four& f, const TickU
   // a: the corner of the largest thickness, b: that of the least depth.
   Lanes most = f.x[0] * f.x[0] + f.y[0] * f.y[0], xa = f.x[0], ya = f.y[0], pxa = f.px[0], pya = f.py[0];
   Lanes w = f.w[0], pxb = f.px[0], pyb = f.py[0], pzb = f.pz[0];
-  Lanes range2 = f.px[0] * f.px[0] + f.py[0] * f.py[0] + f.pz[0] * f.pz[0];
   for (int i = 1; i < 3; ++i) {
     const Lanes square = f.x[i] * f.x[i] + f.y[i] * f.y[i];
     const auto thicker = square > most;
@@ -265,7 +266,6 @@ SWARD_INLINE Projection::Change Projection::change_of(const Four& f, const TickU
     pxb = nearer ? f.px[i] : pxb;
     pyb = nearer ? f.py[i] : pyb;
     pzb = nearer ? f.pz[i] : pzb;
-    range2 = larger(range2, f.px[i] * f.px[i] + f.py[i] * f.py[i] + f.pz[i] * f.pz[i]);
   }
   const Lanes inverse = 1 / root(most), reach = f.bound * depth_per_metre_;
   const Lanes margin = w - reach, per_depth = 2 * w / (margin * (w + reach));
@@ -288,7 +288,7 @@ SWARD_INLINE Projection::Change Projection::change_of(const Four& f, const TickU
   spread = 2 * root(spread) * inverse;
   const Lanes side = length_of(f.px[1] - f.px[2], f.py[1] - f.py[2], f.pz[1] - f.pz[2]);
   Change c;
-  c.range = root(range2) + f.bound;
+  c.range = range(f);
   const Lanes metres = units.metres + units.radians * c.range;
   const Lanes more = 0.5f * units.radians * units.radians * c.range + units.metres * units.radians;
   const Lanes k = (thickness_per_metre_ * metres + thickness_per_radian_ * units.radians) * inverse;
@@ -323,7 +323,7 @@ SWARD_INLINE Lanes least_log(Lanes ratio) {
 SWARD_INLINE Lanes Projection::below_ticks(const Four& f, const Change& c, Lanes p, const Deferral& deferral) const {
   const TickUnits& units = deferral.units;
   const Lanes zero = all(0), rounded = p * k_rounding, rise = least_log(deferral.leaf_guard / rounded);
-  const Lanes near_ticks = f.near_inside / (units.metres + units.radians * (c.range + f.near_inside));
+  const Lanes near_ticks = sign_ticks(f.near_inside, c.range, units);
   Lanes ticks =
       smaller(smaller(solve(c.linear_up, c.square_up, rise), rise / units.log_guard), smaller(c.valid, near_ticks));
   ticks = f.near_inside > 0.0f ? ticks : zero;
@@ -345,23 +345,21 @@ SWARD_WIDE void Projection::read(std::span<const Wedgie* const> wedgies, const D
   Four f = place(wedgies);
   measure_sides(f);
   Lanes p = f.outside < 0.0f ? all(-1) : all(0);
-  Lanes below = all(0), above = all(0), leaves = all(0), range;
+  Lanes below = all(0), above = all(0), leaves = all(0), distance;
   if (wanted != k_outside) {
     measure_thickness(f);
     p = priority(f);
     const Change c = change_of(f, deferral.units);
-    range = c.range;
+    distance = c.range;
     if (wanted & k_below) {
       below = below_ticks(f, c, p, deferral);
       leaves = ticks_to_leave(f);
     }
     if (wanted & k_above) above = above_ticks(c, p, deferral);
   } else {
-    const auto square = [&](int i) { return f.px[i] * f.px[i] + f.py[i] * f.py[i] + f.pz[i] * f.pz[i]; };
-    range = root(larger(square(0), larger(square(1), square(2)))) + f.bound;
+    distance = range(f);
   }
-  const Lanes slack = magnitude(f.outside);
-  const Lanes side = slack / (deferral.units.metres + deferral.units.radians * (range + slack));
+  const Lanes side = sign_ticks(magnitude(f.outside), distance, deferral.units);
   for (size_t i = 0; i < wedgies.size(); ++i)
     readings[i] = {f.bound[i], f.outside[i], p[i], below[i], above[i], side[i], leaves[i]};
 }

@@ -43,6 +43,9 @@ struct Reading {
   bool out() const { return outside < 0; }
 };
 
+/// Set in the tick at which a node that is out is looked at.
+inline constexpr uint32_t k_watch = 0x80000000u;
+
 /// All that a deferred look at a node reads, in one cache line: where its wedgie is, and until when what was found out
 /// about it holds.
 struct alignas(64) Wedgie {
@@ -129,6 +132,7 @@ class Projection {
   Four place(std::span<const Wedgie* const> wedgies) const;
   void measure_sides(Four& four) const;
   void measure_thickness(Four& four) const;
+  Lanes range(const Four& four) const;
   Lanes priority(const Four& four) const;
   Change change_of(const Four& four, const TickUnits& units) const;
   Lanes below_ticks(const Four& four, const Change& change, Lanes priority, const Deferral& deferral) const;

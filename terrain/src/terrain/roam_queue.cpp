@@ -6,50 +6,39 @@
 
 namespace sward::roam {
 
-uint32_t BucketQueue::highest(const NodeStates& nodes) const {
-  for (int s = int(summary_.size()) - 1; s >= 0; --s) {
-    if (summary_[s] == 0) continue;
-    const int w = s * 64 + 63 - std::countl_zero(summary_[s]);
-    const int bucket = w * 64 + 63 - std::countl_zero(words_[w]);
-    if (bucket == 0) return k_none;
-    uint32_t best = heads_[bucket];
-    for (uint32_t node = best; node != k_none; node = nodes[node].next) {
-      if (nodes[node].key > nodes[best].key) best = node;
-      if (nodes[best].key >= RoamMesh::k_artificial_max) break;
+uint32_t BucketQueue::bucket_below(uint32_t bucket) const {
+  uint32_t w = bucket >> 6;
+  uint64_t word = words_[w] & ((uint64_t(1) << (bucket & 63)) - 1);
+  if (word == 0) {
+    uint32_t s = w >> 6;
+    uint64_t summary = summary_[s] & ((uint64_t(1) << (w & 63)) - 1);
+    while (summary == 0) {
+      if (s == 0) return 0;
+      summary = summary_[--s];
     }
-    return best;
+    w = s * 64 + 63 - uint32_t(std::countl_zero(summary));
+    word = words_[w];
   }
-  return k_none;
+  return w * 64 + 63 - uint32_t(std::countl_zero(word));
 }
 
 uint32_t BucketQueue::highest_below(const NodeStates& nodes, uint32_t bucket) const {
-  uint64_t below = (uint64_t(1) << (bucket & 63)) - 1;
-  for (int w = int(bucket >> 6); w >= 0; --w, below = ~uint64_t(0)) {
-    const uint64_t word = words_[size_t(w)] & below & (w == 0 ? ~uint64_t(1) : ~uint64_t(0));
-    if (word == 0) continue;
-    uint32_t best = heads_[size_t(w * 64 + 63 - std::countl_zero(word))];
-    for (uint32_t node = best; node != k_none; node = nodes[node].next)
-      if (nodes[node].key > nodes[best].key) best = node;
-    return best;
+  const uint32_t found = bucket_below(bucket);
+  if (found == 0) return k_none;
+  uint32_t best = heads_[found];
+  for (uint32_t node = best; node != k_none; node = nodes[node].next) {
+    if (nodes[node].key > nodes[best].key) best = node;
+    if (nodes[best].key >= RoamMesh::k_artificial_max) break;
   }
-  return k_none;
+  return best;
 }
 
 size_t BucketQueue::some_highest(const NodeStates& nodes, std::span<uint32_t> nodes_out) const {
   size_t count = 0;
-  for (int s = int(summary_.size()) - 1; s >= 0; --s) {
-    for (uint64_t summary = summary_[size_t(s)]; summary != 0;) {
-      const int w = 63 - std::countl_zero(summary);
-      summary &= ~(uint64_t(1) << w);
-      for (uint64_t word = words_[size_t(s * 64 + w)]; word != 0;) {
-        const int bit = 63 - std::countl_zero(word);
-        word &= ~(uint64_t(1) << bit);
-        const int bucket = (s * 64 + w) * 64 + bit;
-        for (uint32_t node = bucket == 0 ? k_none : heads_[size_t(bucket)]; node != k_none; node = nodes[node].next) {
-          if (count == nodes_out.size()) return count;
-          nodes_out[count++] = node;
-        }
-      }
+  for (uint32_t bucket = bucket_below(k_no_bucket); bucket != 0; bucket = bucket_below(bucket)) {
+    for (uint32_t node = heads_[bucket]; node != k_none; node = nodes[node].next) {
+      if (count == nodes_out.size()) return count;
+      nodes_out[count++] = node;
     }
   }
   return count;

@@ -22,9 +22,6 @@ inline constexpr CullFlags k_out = 0x80;
 /// The centre of this split node's diamond is on its way down: its halves count as leaves already.
 inline constexpr CullFlags k_falling = 0x40;
 
-/// Set in the tick at which a node that is out is looked at.
-inline constexpr uint32_t k_watch = 0x80000000u;
-
 /// What a view makes of a node, and its place in the split queue (a leaf, or half of a falling diamond) or the merge
 /// queue (a split node, for its diamond). Two share a cache line, as siblings do.
 struct alignas(32) NodeState {
@@ -91,7 +88,7 @@ class BucketQueue {
   }
 
   /// The node of the largest key; k_none when none has a priority.
-  uint32_t highest(const NodeStates& nodes) const;
+  uint32_t highest(const NodeStates& nodes) const { return highest_below(nodes, k_no_bucket); }
   /// The same among the buckets before one.
   uint32_t highest_below(const NodeStates& nodes, uint32_t bucket) const;
   /// Nodes of the largest keys, not quite in their order, into `nodes_out`; their number.
@@ -116,6 +113,11 @@ class BucketQueue {
  private:
   static constexpr int k_shift = 12;
   static constexpr int k_buckets = 1 << 19;
+  // Above that of every key, infinity included.
+  static constexpr uint32_t k_no_bucket = k_buckets - 1;
+
+  // The highest bucket below this one that is not empty; 0 when all that is left has no priority.
+  uint32_t bucket_below(uint32_t bucket) const;
 
   void clear_bit(uint32_t bucket) {
     uint64_t& word = words_[bucket >> 6];

@@ -74,17 +74,17 @@ void RoamEngine::take_children(std::span<const uint32_t, 2> halves) {
 
 void RoamEngine::split_one(uint32_t node) {
   const uint32_t halves[2] = {node, tree_.neighbour[node].base};
-  bool seen = false, near = false;
+  bool seen = false, stands = false;
   for (const uint32_t half : halves) {
     if (half == k_none) continue;
     const uint32_t parent = tree_.nodes[half].parent;
     if (in_falling(half)) stop_fall(parent);
     if (parent != k_none) forget_diamond(parent);
-    near |= wedgie_[half].claimed;
+    stands |= wedgie_[half].claimed;
     if (!is_visible(half)) continue;
     seen = true;
     const NodeState& s = state_[half];
-    near |= morphs() && (s.queued() ? s.key : read(half).priority) > modest();
+    stands |= morphs() && (s.queued() ? s.key : read(half).priority) > modest();
     unplace(half);
     if (draws_.contains(half)) draws_.remove(half);
   }
@@ -92,10 +92,10 @@ void RoamEngine::split_one(uint32_t node) {
   const double from_z = 0.5 * (tree_.vertices.drawn_z(c.left) + tree_.vertices.drawn_z(c.right));
   tree_.split_diamond(node);
   grow_arrays();
-  if (options_.plain) take_vertex(tree_.corner[tree_.child[node]].apex);
+  if (options_.plain) take_vertex(tree_.centre_vertex(node));
   take_children(halves);
   // What crosses the near plane has no bound in pixels to keep while it moves; what is claimed must be right at once.
-  if (morphs() && seen && !near) {
+  if (morphs() && seen && !stands) {
     rise(node, from_z);
   } else {
     refresh_diamond(node);

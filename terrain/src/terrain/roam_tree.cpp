@@ -281,7 +281,7 @@ void RoamTree::join_as_leaf(uint32_t node) {
 
 void RoamTree::merge_diamond(uint32_t node) {
   const uint32_t base = neighbour[node].base;
-  const uint32_t middle = corner[child[node]].apex;
+  const uint32_t middle = centre_vertex(node);
   join_as_leaf(node);
   leaf_count_ -= 1;
   if (base != k_none) {

@@ -160,6 +160,8 @@ class RoamTree {
   bool mergeable(uint32_t node) const;
   /// Undoes split_diamond() for a mergeable node.
   void merge_diamond(uint32_t node);
+  /// The vertex that the split of a node's diamond brought.
+  uint32_t centre_vertex(uint32_t node) const { return corner[child[node]].apex; }
   /// The half of the node's diamond that stands for it: the lower index.
   uint32_t diamond_of(uint32_t node) const { return std::min(node, neighbour[node].base); }
 

@@ -89,7 +89,6 @@ class HostPriorities {
 
   Expected<Place> place_of(const NamedPoint& point) const;
   Expected<Place> place_of(const NamedLine& line) const;
-  glm::dvec2 to_lattice(glm::dvec2 xy) const;
   Expected<void> add(uint64_t id, const Expected<Place>& place);
   Expected<void> move(uint64_t id, const Expected<Place>& place);
   void set(uint32_t slot, const Place& place);

@@ -46,7 +46,9 @@ struct Lattice {
     return {origin.x + (p.x * inverse - 0.5 * (columns - 1)) * spacing.x,
             origin.y + (0.5 * (rows - 1) - p.y * inverse) * spacing.y};
   }
-  /// Lattice coordinates (x east, y south) of a world position on the data; NaN beyond it.
+  /// Lattice coordinates (x east, y south) of a world position, on the data or beyond it.
+  glm::dvec2 extended_from_world(glm::dvec2 xy) const;
+  /// The same on the data; NaN beyond it.
   glm::dvec2 from_world(glm::dvec2 xy) const;
   /// Western/southern and eastern/northern corner of the data, world.
   glm::dvec2 min_corner() const { return world_xy({0, last().y}); }
