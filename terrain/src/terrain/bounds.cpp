@@ -23,6 +23,7 @@
 #include <limits>
 
 #include "bounds_parallel.h"
+#include "large_pages.h"
 #include "relief.h"
 #include "smoothing.h"
 
@@ -224,6 +225,7 @@ void Bounds::adopt_layout(const HeightField& field) {
   stride_ = size.x;
   stored_count_ = size_t(size.x) * size_t(size.y);
   stored_ = std::make_unique_for_overwrite<uint16_t[]>(stored_count_);
+  prefer_large_pages(stored_.get(), stored_count_ * sizeof(uint16_t));
   // The corners of root squares are no diamond's centre.
   const int side = 1 << field.root_bits();
   for (int row = 0; row < size.y; row += side)

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "large_pages.h"
 #include "roam_queue.h"
 
 namespace sward::roam {
@@ -89,7 +90,7 @@ class DrawList {
     changed_.push_back(slot);
   }
 
-  std::vector<uint32_t> slot_;     // by node; k_none: not drawn
+  LargeVector<uint32_t> slot_;     // by node; k_none: not drawn
   std::vector<uint32_t> nodes_;    // by slot; k_none: a gap
   std::vector<uint32_t> indices_;  // three a slot
   std::vector<uint32_t> free_, changed_;

@@ -250,7 +250,7 @@ class RoamEngine {
   RoamStats stats_;
 
   NodeStates state_;
-  std::vector<Wedgie> wedgie_;                  // by node
+  LargeVector<Wedgie> wedgie_;                  // by node
   std::vector<uint32_t> lingering_, lingered_;  // visible leaves that may have gone out of sight, the older ones second
   uint32_t lingering_list_ = 1;                 // the number of the first
   double lingering_ticks_ = 0;                  // since it was begun
@@ -317,7 +317,7 @@ class RoamEngine {
     float form[Forms::k_forms] = {};
     uint32_t view = 0;
   };
-  mutable std::vector<SeenVertex> seen_;  // by vertex
+  mutable LargeVector<SeenVertex> seen_;  // by vertex
   uint32_t view_number_ = 0;
 
   std::chrono::steady_clock::time_point deadline_;

@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "large_pages.h"
+
 namespace sward::roam {
 
 inline constexpr uint32_t k_none = 0xffffffffu;
@@ -37,7 +39,7 @@ struct alignas(32) NodeState {
 
   bool queued() const { return bucket != k_unqueued; }
 };
-using NodeStates = std::vector<NodeState>;
+using NodeStates = LargeVector<NodeState>;
 
 /// Priority queue over keys >= 0 with 2048 buckets an octave, cut from the float's own bits, under a two-level bitmap:
 /// insertion and removal take constant time, the extreme key is exact (its bucket is searched). Bucket 0 holds what
@@ -53,6 +55,7 @@ class BucketQueue {
   void insert(NodeStates& nodes, uint32_t node, float key) {
     const uint32_t bucket = bucket_of(key);
     const uint32_t head = heads_[bucket];
+    if (top_ != k_none && key >= nodes[top_].key) top_ = node;
     nodes[node].key = key;
     nodes[node].bucket = bucket;
     nodes[node].previous = k_none;
@@ -67,6 +70,7 @@ class BucketQueue {
   void remove(NodeStates& nodes, uint32_t node) {
     const uint32_t bucket = nodes[node].bucket;
     const uint32_t previous = nodes[node].previous, next = nodes[node].next;
+    if (node == top_) top_ = k_none;
     if (next != k_none) nodes[next].previous = previous;
     if (previous != k_none) {
       nodes[previous].next = next;
@@ -81,6 +85,7 @@ class BucketQueue {
   void change_key(NodeStates& nodes, uint32_t node, float key) {
     if (bucket_of(key) == nodes[node].bucket) {
       nodes[node].key = key;
+      top_ = k_none;
     } else {
       remove(nodes, node);
       insert(nodes, node, key);
@@ -89,6 +94,11 @@ class BucketQueue {
 
   /// The node of the largest key; k_none when none has a priority.
   uint32_t highest(const NodeStates& nodes) const { return highest_below(nodes, k_no_bucket); }
+  /// The same, without a search while it stays: a bucket of a large mesh holds hundreds.
+  uint32_t top(const NodeStates& nodes) {
+    if (top_ == k_none) top_ = highest(nodes);
+    return top_;
+  }
   /// The same among the buckets before one.
   uint32_t highest_below(const NodeStates& nodes, uint32_t bucket) const;
   /// Nodes of the largest keys, not quite in their order, into `nodes_out`; their number.
@@ -108,6 +118,7 @@ class BucketQueue {
     words_.fill(0);
     summary_.fill(0);
     size_ = 0;
+    top_ = k_none;
   }
 
  private:
@@ -129,6 +140,7 @@ class BucketQueue {
   std::array<uint64_t, k_buckets / 64> words_{};
   std::array<uint64_t, k_buckets / 4096> summary_{};
   size_t size_ = 0;
+  uint32_t top_ = k_none;  // the node of the largest key, if known
 };
 
 }  // namespace sward::roam

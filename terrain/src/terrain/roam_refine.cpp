@@ -223,7 +223,7 @@ bool RoamEngine::converge() {
 // The visible leaf of the largest priority; k_none when none is above the target.
 uint32_t RoamEngine::worst_leaf() {
   for (;;) {
-    const uint32_t worst = split_queue_.highest(state_);
+    const uint32_t worst = split_queue_.top(state_);
     const float key = worst == k_none ? 0.0f : state_[worst].key;
     if (key >= leaf_guard_ || leaf_guard_ <= target_priority())
       return worst != k_none && key > target_priority() ? worst : k_none;

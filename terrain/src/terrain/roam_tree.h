@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "large_pages.h"
 #include "roam_queue.h"
 
 namespace sward::roam {
@@ -79,8 +80,8 @@ class VertexPool {
     Motion motion;
   };
 
-  std::vector<LatticePoint> lattice;
-  std::vector<Point> points;
+  LargeVector<LatticePoint> lattice;
+  LargeVector<Point> points;
   std::vector<RoamVertex> gpu;
   std::vector<uint8_t> alive;
   std::vector<uint32_t> changed;  // slots written since begin_changes()
@@ -165,10 +166,10 @@ class RoamTree {
   /// The half of the node's diamond that stands for it: the lower index.
   uint32_t diamond_of(uint32_t node) const { return std::min(node, neighbour[node].base); }
 
-  std::vector<Node> nodes;
-  std::vector<Corners> corner;
-  std::vector<Neighbours> neighbour;
-  std::vector<uint32_t> child;  // first of the two; k_none: leaf; k_dead: unused
+  LargeVector<Node> nodes;
+  LargeVector<Corners> corner;
+  LargeVector<Neighbours> neighbour;
+  LargeVector<uint32_t> child;  // first of the two; k_none: leaf; k_dead: unused
   VertexPool vertices;
 
  private:
