@@ -40,6 +40,7 @@ struct World::Impl {
   };
   struct Failure {
     int attempts = 0;
+    std::string message;
     std::chrono::steady_clock::time_point retry_at;
   };
 
@@ -58,6 +59,8 @@ struct World::Impl {
   bool ancestors_resident(LatticePoint centre, int level) const;
   glm::dvec2 fine_gradient(const SquareData& data, glm::ivec2 square, glm::ivec2 sample) const;
   glm::dvec2 coarse_gradient(glm::ivec2 at) const;
+  glm::dvec2 gradient_between(glm::dvec2 place) const;
+  glm::dvec2 wide_gradient(const SquareData& data, glm::ivec2 square, glm::ivec2 sample, int reach) const;
 
   // Residency; the controlling thread.
   Box box_of(glm::ivec2 square) const;
