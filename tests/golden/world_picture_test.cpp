@@ -179,7 +179,7 @@ TEST_F(WorldPicture, StreamedInEndsAsTheSame) {
   std::vector<uint8_t> first;
   double time = 0;
   int still = 0;
-  for (int frame = 0; frame < 3000 && still < 60; ++frame) {
+  for (int frame = 0; frame < 3000 && still < 10; ++frame) {
     target->begin();
     time += 1.0 / 60;
     auto stats = renderer->draw(view, lighting, time, target->framebuffer(), target->samples(), true);
@@ -188,7 +188,7 @@ TEST_F(WorldPicture, StreamedInEndsAsTheSame) {
     const bool quiet = coming->world()->settled() && stats->roam.splits + stats->roam.merges + stats->roam.moving == 0;
     still = quiet ? still + 1 : 0;
   }
-  EXPECT_EQ(still, 60);
+  EXPECT_EQ(still, 10);
   const auto mean_to = [&](const std::vector<uint8_t>& picture) {
     double mean = 0;
     for (size_t i = 0; i < expected.size(); ++i) mean += std::abs(int(picture[i]) - int(expected[i]));
