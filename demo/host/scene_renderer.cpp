@@ -16,7 +16,7 @@ namespace sward::host {
 namespace {
 
 // Tiles of slopes that a frame reads while squares come and go: some 2 ms at most.
-constexpr size_t k_slope_tiles_a_frame = 8;
+constexpr size_t k_slope_tiles_a_frame = 4;
 
 // What is compiled from shaders, so that a reload can build it aside.
 struct Programs {

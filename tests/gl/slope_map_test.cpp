@@ -117,9 +117,9 @@ TEST(SlopeTiles, WhatHasChangedIsReadAgainNearestFirst) {
 
 class SlopeMap : public test::GlTest {
  protected:
-  static std::vector<glm::vec2> read(const gl::SlopeMap& map, glm::ivec2 size) {
+  static std::vector<glm::vec2> read(const gl::SlopeMap& map, glm::ivec2 size, int level = 0) {
     std::vector<glm::vec2> slopes(size_t(size.x) * size_t(size.y) * size_t(map.layers()));
-    glGetTextureImage(map.texture(), 0, GL_RG, GL_FLOAT, GLsizei(slopes.size() * sizeof(glm::vec2)), slopes.data());
+    glGetTextureImage(map.texture(), level, GL_RG, GL_FLOAT, GLsizei(slopes.size() * sizeof(glm::vec2)), slopes.data());
     return slopes;
   }
 };
@@ -179,6 +179,35 @@ world_support::Heights gentle_hills() {
       heights.samples.push_back(float(std::lround(30000 + 9000 * std::sin(column * 0.013) * std::cos(row * 0.011) +
                                                   1500 * std::sin(column * 0.05 + row * 0.04))));
   return heights;
+}
+
+// Every texel of every level of every layer that has been written is the mean of the four below it.
+TEST_F(SlopeMap, LevelsOfWindowsAreMeans) {
+  const auto heights = gentle_hills();
+  const HeightField field = field_of(heights);
+  const Bounds bounds = Bounds::create(field);
+  const FieldSurface surface(bounds);
+  auto map = gl::SlopeMap::create(surface, {1024, 512});
+  ASSERT_TRUE(map);
+  map->follow(surface, {1237, -2411}, 1000);
+  map->follow(surface, {-9237, 8411}, 1000);
+  std::vector<glm::vec2> finer = read(*map, {512, 512});
+  double sum = 0;
+  for (int level = 1; level < 7; ++level) {
+    const int side = 512 >> level, below = 2 * side;
+    const std::vector<glm::vec2> coarser = read(*map, {side, side}, level);
+    for (int layer = 0; layer < map->layers(); ++layer)
+      for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column) {
+          const glm::vec2* at = &finer[size_t((layer * below + 2 * row) * below + 2 * column)];
+          const glm::vec2 mean = 0.25f * (at[0] + at[1] + at[below] + at[below + 1]);
+          const glm::vec2 found = coarser[size_t((layer * side + row) * side + column)];
+          ASSERT_LT(glm::length(found - mean), 1e-3f) << level << " " << layer << " " << row << " " << column;
+          sum += double(glm::length(found));
+        }
+    finer = coarser;
+  }
+  EXPECT_GT(sum, 100);
 }
 
 TEST_F(SlopeMap, WindowsShowWhatTheWholeMapShows) {

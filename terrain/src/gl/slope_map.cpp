@@ -18,8 +18,9 @@ namespace {
 
 /// Rows of slopes computed and uploaded at a time.
 constexpr int k_rows_at_a_time = 256;
-/// Coarser levels of a window would mix what lies on both sides of its edge; see SlopeTiles::reach().
+/// Of windows, down to two texels a tile: coarser ones would mix what lies on both sides of a window's edge.
 constexpr int k_window_levels = 7;
+static_assert(k_slope_tile >> (k_window_levels - 1) == 2);
 constexpr int k_least_window = 512, k_most_window = 8192;
 
 /// Central differences of the samples, one-sided along the border; y of the gradient counts north.
@@ -48,6 +49,17 @@ void write_slopes(GLuint texture, const HeightField& field, glm::ivec2 first, gl
   glGenerateTextureMipmap(texture);
 }
 
+/// Halves an image whose sides are even, in place: each texel the mean of four.
+void halve(std::vector<glm::vec2>& texels, glm::ivec2 size) {
+  const auto width = size_t(size.x);
+  size_t to = 0;
+  for (size_t row = 0; row < size_t(size.y); row += 2)
+    for (size_t column = 0; column < width; column += 2) {
+      const glm::vec2* at = &texels[row * width + column];
+      texels[to++] = 0.25f * (at[0] + at[1] + at[width] + at[width + 1]);
+    }
+}
+
 }  // namespace
 
 struct SlopeMap::Impl {
@@ -60,12 +72,12 @@ struct SlopeMap::Impl {
     const glm::ivec2 size = tiles.texels();
     const int levels = std::bit_width(unsigned(std::max(size.x, size.y)));
     texture = create_texture(GL_TEXTURE_2D_ARRAY);
-    glTextureStorage3D(texture.id(), levels, GL_RG16F, size.x, size.y, tiles.layers());
+    glTextureStorage3D(texture.id(), tiles.windowed() ? k_window_levels : levels, GL_RG16F, size.x, size.y,
+                       tiles.layers());
     set_trilinear(texture.id());
     if (!tiles.windowed()) return;
     glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_REPEAT);
     glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_T, GL_REPEAT);
-    glTextureParameteri(texture.id(), GL_TEXTURE_MAX_LEVEL, k_window_levels - 1);
   }
 
   void write(const Surface& surface, const SlopeTiles::Tile& tile) {
@@ -73,8 +85,14 @@ struct SlopeMap::Impl {
     const int stride = tiles.stride(tile.layer);
     slopes.resize(size_t(box.size.x) * size_t(box.size.y));
     surface.data_gradients(box.first * stride, stride, box.size, slopes);
-    glTextureSubImage3D(texture.id(), 0, box.place.x, box.place.y, tile.layer, box.size.x, box.size.y, 1, GL_RG,
-                        GL_FLOAT, slopes.data());
+    // Tiles of windows fill whole texels of every level, so that only theirs have to be made anew.
+    const int levels = tiles.windowed() ? k_window_levels : 1;
+    for (int level = 0; level < levels; ++level) {
+      const glm::ivec2 place = box.place >> level, size = box.size >> level;
+      glTextureSubImage3D(texture.id(), level, place.x, place.y, tile.layer, size.x, size.y, 1, GL_RG, GL_FLOAT,
+                          slopes.data());
+      if (level + 1 < levels) halve(slopes, size);
+    }
   }
 };
 
@@ -116,7 +134,7 @@ void SlopeMap::follow(const Surface& surface, glm::dvec2 eye, size_t tiles) {
   if (next.empty()) return;
   const DefaultUnpack unpack;
   for (const SlopeTiles::Tile& tile : next) impl_->write(surface, tile);
-  glGenerateTextureMipmap(impl_->texture.id());
+  if (!impl_->tiles.windowed()) glGenerateTextureMipmap(impl_->texture.id());
 }
 
 void SlopeMap::changed(const LatticeBox& box) {

@@ -52,6 +52,11 @@ double interpolate(glm::dvec2 place, glm::ivec2 last, At&& at) {
   return se + (1.0 - u) * (sw - se) + (1.0 - v) * (ne - se);
 }
 
+// Corners in the order NW, NE, SW, SE; t within the cell.
+glm::dvec2 bilinear(const std::array<glm::dvec2, 4>& corner, glm::dvec2 t) {
+  return glm::mix(glm::mix(corner[0], corner[1], t.x), glm::mix(corner[2], corner[3], t.x), t.y);
+}
+
 float decode_bound(uint16_t code) {
   return code == world::k_nothing ? 0.0f : Bounds::decode(code);
 }
@@ -216,20 +221,28 @@ glm::dvec2 World::Impl::coarse_gradient(glm::ivec2 at) const {
           (coarse_height({at.x, low.y}) - coarse_height({at.x, high.y})) / ((high.y - low.y) * spacing.y)};
 }
 
+// `place` in coarse samples, on the data. Neighbours ask for the same cell many times.
+glm::dvec2 World::Impl::coarse_gradient_between(glm::dvec2 place, CoarseCell& kept) const {
+  const glm::ivec2 cell = glm::min(glm::ivec2(place), layout.coarse_last - 1);
+  if (cell != kept.cell) {
+    kept.cell = cell;
+    for (int corner = 0; corner < 4; ++corner)
+      kept.gradient[size_t(corner)] = coarse_gradient(cell + glm::ivec2(corner & 1, corner >> 1));
+  }
+  return bilinear(kept.gradient, place - glm::dvec2(cell));
+}
+
 // `place` in samples, on the data.
 glm::dvec2 World::Impl::gradient_between(glm::dvec2 place) const {
-  const auto bilinear = [](glm::dvec2 at, glm::ivec2 end, auto&& gradient) {
-    const glm::ivec2 cell = glm::min(glm::ivec2(at), end - 1);
-    const glm::dvec2 t = at - glm::dvec2(cell);
-    const auto corner = [&](int i, int j) { return gradient(cell + glm::ivec2(i, j)); };
-    return glm::mix(glm::mix(corner(0, 0), corner(1, 0), t.x), glm::mix(corner(0, 1), corner(1, 1), t.x), t.y);
-  };
-  const glm::ivec2 square = glm::min(glm::ivec2(place), layout.data_last - 1) >> layout.desc.root_bits;
-  if (const SquareData* data = fine(square)) {
-    return bilinear(place, layout.data_last, [&](glm::ivec2 sample) { return fine_gradient(*data, square, sample); });
-  }
-  return bilinear(place / double(layout.coarse_step), layout.coarse_last,
-                  [&](glm::ivec2 at) { return coarse_gradient(at); });
+  const glm::ivec2 cell = glm::min(glm::ivec2(place), layout.data_last - 1);
+  const glm::ivec2 square = cell >> layout.desc.root_bits;
+  const SquareData* data = fine(square);
+  CoarseCell coarse_cell;
+  if (data == nullptr) return coarse_gradient_between(place / double(layout.coarse_step), coarse_cell);
+  std::array<glm::dvec2, 4> gradient;
+  for (int corner = 0; corner < 4; ++corner)
+    gradient[size_t(corner)] = fine_gradient(*data, square, cell + glm::ivec2(corner & 1, corner >> 1));
+  return bilinear(gradient, place - glm::dvec2(cell));
 }
 
 glm::dvec2 World::data_gradient(glm::dvec2 xy) const {
@@ -260,6 +273,8 @@ void World::data_gradients(glm::ivec2 first, int stride, glm::ivec2 count, std::
   const world::Readers::Guard guard(impl_->readers);
   const Impl& w = *impl_;
   const int reach = std::max(stride / 2, 1);
+  const double to_coarse = 1.0 / double(w.layout.coarse_step);
+  Impl::CoarseCell coarse_cell;
   size_t i = 0;
   for (int row = 0; row < count.y; ++row)
     for (int column = 0; column < count.x; ++column) {
@@ -267,7 +282,7 @@ void World::data_gradients(glm::ivec2 first, int stride, glm::ivec2 count, std::
       const glm::ivec2 square = glm::min(sample, w.layout.data_last - 1) >> w.layout.desc.root_bits;
       const SquareData* data = w.fine(square);
       out[i++] = glm::vec2(data != nullptr ? w.wide_gradient(*data, square, sample, reach)
-                                           : w.gradient_between(glm::dvec2(sample)));
+                                           : w.coarse_gradient_between(glm::dvec2(sample) * to_coarse, coarse_cell));
     }
 }
 

@@ -104,7 +104,7 @@ class World final : public Surface {
 
   /// Height at world x, y from the finest data that is resident there; NaN outside of the data.
   double height(glm::dvec2 xy) const override;
-  /// In one pass over each square's samples: some 10 ns a slope. Differences over a stride end at the square's ring.
+  /// Cost: some 25 ns a slope. Differences over a stride end at the square's ring.
   void data_gradients(glm::ivec2 first, int stride, glm::ivec2 count, std::span<glm::vec2> out) const override;
   /// Whether a square's fine data is resident.
   bool resident(glm::ivec2 square) const;
