@@ -34,9 +34,8 @@ class SlopeMap {
 
   /// Before each draw from another eye (world x, y): windows move, and at most `tiles` tiles of 128 x 128 slopes that
   /// are out of date are read again, the nearest first; places that would show nothing or other ground are filled at
-  /// once, whatever that takes. Cost: some 0.5 ms a tile, and for a map
-  /// held whole the GPU's for its mip levels. Leaves all state as it was.
-  /// `surface` is the one it was created for.
+  /// once, whatever that takes. Cost: some 0.5 ms a tile, and for a map held whole the
+  /// GPU's for its mip levels. Leaves all state as it was. `surface` is the one it was created for.
   void follow(const Surface& surface, glm::dvec2 eye, size_t tiles);
   /// The data's slopes may have changed here: each box of World::poll(), EditResult::changed.
   void changed(const LatticeBox& box);
