@@ -42,6 +42,9 @@ Expected<void> override_world(const SceneOptions& options, Scene& scene) {
     scene.world_path = absolute(options.world);
     stand_in_the_middle(scene);
   }
+  const bool over_world = !scene.world_path.empty() && options.height.empty();
+  if (over_world && options.detail_given && options.detail == "on")
+    return fail("--detail on: a world has no relief below its data; leave it out");
   if (!options.memory_mb) return {};
   if (scene.world_path.empty()) return fail("--memory is the cap of a world, and this scene has none; add --world");
   if (!(*options.memory_mb > 0 && *options.memory_mb <= 1e9)) return fail("--memory must be megabytes above 0");
@@ -121,6 +124,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options, bool detail_by_defa
   app.add_option("--triangles", options.triangles, "Terrain triangle budget instead of the scene's")->type_name("N");
   app.add_option("--detail", options.detail, "Relief below the data")
       ->check(CLI::IsMember({"on", "off"}))
+      ->each([&options](const std::string&) { options.detail_given = true; })
       ->type_name("on|off")
       ->capture_default_str();
 }

@@ -24,6 +24,7 @@ struct SceneOptions {
   std::string camera;  ///< "x,y,z,yaw,pitch"; empty: the scene's.
   std::string sun;     ///< "azimuth,elevation"; empty: the scene's.
   std::string detail;  ///< "on" or "off".
+  bool detail_given = false;
 };
 
 void add_scene_options(CLI::App& app, SceneOptions& options, bool detail_by_default);

@@ -214,6 +214,7 @@ const BadWorld k_bad[] = {
     {"FlyMissing", "fly --world none --csv f.csv", "sward bake"},
     {"WorldAndHeight", "render --world FOLDER --height MAP -o p.ppm", "--world and --height contradict"},
     {"Spacing", "render --world FOLDER --spacing 3 -o p.ppm", "baked with"},
+    {"Detail", "render WORLD --detail on -o p.ppm", "--detail on"},
     {"MemoryWithoutWorld", "render SCENE --memory 9 -o p.ppm", "--memory is the cap of a world"},
     {"NoMemory", "render WORLD --memory 0 -o p.ppm", "--memory must be"},
     {"MemoryBelowTwoSquares", "render WORLD --memory 0.001 -o p.ppm", "raise it to at least"},
