@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/terrain/error.h>
 #include <memory>
 #include <string>
-#include <sward/terrain/error.h>
 #include <vector>
 
 namespace sward::host {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <sward/terrain/height_field.h>
+#include <sward/terrain/surface.h>
 #include <sward/terrain/view.h>
 #include <string>
 #include <vector>
@@ -33,9 +33,10 @@ Expected<std::vector<FlightFrame>> load_flight(const std::string& path, const Fl
 /// Length of the built-in flight, seconds.
 inline constexpr double k_paper_flight_s = 30;
 
-/// The flight of Papavasiliou (2015), section 4, over any field: it begins high, where single plants are not drawn, is
+/// The flight of Papavasiliou (2015), section 4, over any ground: it begins high, where single plants are not drawn, is
 /// near the ground from the tenth second to the twentieth and climbs again, following the ground, looking ahead and
-/// slightly down. The first `seconds` of it (0 < seconds <= k_paper_flight_s), one frame every 1/fps.
-Expected<std::vector<FlightFrame>> paper_flight(const HeightField& field, double seconds, const FlightOptions& options);
+/// slightly down. The first `seconds` of it (0 < seconds <= k_paper_flight_s), one frame every 1/fps. All of the
+/// ground must be there: it is the finest that the flight follows.
+Expected<std::vector<FlightFrame>> paper_flight(const Surface& ground, double seconds, const FlightOptions& options);
 
 }  // namespace sward::host

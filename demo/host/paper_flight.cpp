@@ -22,9 +22,9 @@ constexpr double k_step_s = 1.0 / 120.0;  // of the path's samples
 constexpr int k_steps = int(k_paper_flight_s / k_step_s + 0.5);
 constexpr int k_follow_steps = 60;  // half a second: the ground is followed through a window this wide on either side
 
-double ground_height(const HeightField& field, glm::dvec2 xy) {
-  const glm::dvec2 inside = glm::clamp(xy, field.min_corner(), field.max_corner());
-  return field.height(inside);
+double ground_height(const Surface& ground, glm::dvec2 xy) {
+  const Lattice& lattice = ground.lattice();
+  return ground.height(glm::clamp(xy, lattice.min_corner(), lattice.max_corner()));
 }
 
 // Height above the ground: a parabola down, level, a parabola up; its slope is continuous.
@@ -42,8 +42,9 @@ struct Path {
 };
 
 // Integrates the speed along the S, then moves and scales it so that it passes through the field's middle half way.
-void lay_out(const HeightField& field, double high_m, Path& path) {
-  const glm::dvec2 extent = field.max_corner() - field.min_corner();
+void lay_out(const Surface& ground, double high_m, Path& path) {
+  const glm::dvec2 low_corner = ground.lattice().min_corner(), high_corner = ground.lattice().max_corner();
+  const glm::dvec2 extent = high_corner - low_corner;
   const double base_yaw = std::atan2(extent.y, extent.x);
   glm::dvec2 at(0);
   for (int i = 0; i <= k_steps; ++i) {
@@ -59,15 +60,15 @@ void lay_out(const HeightField& field, double high_m, Path& path) {
   for (const glm::dvec2 p : path.position)
     for (int axis = 0; axis < 2; ++axis)
       reach = std::max(reach, std::abs(p[axis] - middle[axis]) / (0.45 * extent[axis]));
-  for (glm::dvec2& p : path.position) p = (field.min_corner() + field.max_corner()) / 2.0 + (p - middle) / reach;
+  for (glm::dvec2& p : path.position) p = (low_corner + high_corner) / 2.0 + (p - middle) / reach;
 }
 
 // The highest ground within the window, then the mean of that over the same window: smooth, and at every place at
 // least as high as the ground there, because each of the averaged maxima has seen it.
-void follow_ground(const HeightField& field, Path& path) {
+void follow_ground(const Surface& ground, Path& path) {
   const int count = int(path.position.size());
   std::vector<double> height(path.position.size()), highest(path.position.size());
-  for (int i = 0; i < count; ++i) height[size_t(i)] = ground_height(field, path.position[size_t(i)]);
+  for (int i = 0; i < count; ++i) height[size_t(i)] = ground_height(ground, path.position[size_t(i)]);
   const auto window = [count](int i) {
     return std::pair(std::max(i - k_follow_steps, 0), std::min(i + k_follow_steps, count - 1));
   };
@@ -90,15 +91,15 @@ double between(const std::vector<double>& values, double place) {
 
 }  // namespace
 
-Expected<std::vector<FlightFrame>> paper_flight(const HeightField& field, double seconds,
-                                                const FlightOptions& options) {
+Expected<std::vector<FlightFrame>> paper_flight(const Surface& ground, double seconds, const FlightOptions& options) {
   if (!(seconds > 0 && seconds <= k_paper_flight_s))
     return fail("the paper flight is 30 s long; --seconds must be above 0 and at most 30");
-  const glm::dvec2 extent = field.max_corner() - field.min_corner();
+  const glm::dvec2 low_corner = ground.lattice().min_corner(), high_corner = ground.lattice().max_corner();
+  const glm::dvec2 extent = high_corner - low_corner;
   const double high_m = std::clamp(0.15 * std::min(extent.x, extent.y), 150.0, 600.0);
   Path path;
-  lay_out(field, high_m, path);
-  follow_ground(field, path);
+  lay_out(ground, high_m, path);
+  follow_ground(ground, path);
 
   std::vector<FlightFrame> frames;
   const int count = std::max(1, int(std::lround(seconds * options.fps)));

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/gl/handles.h>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <sward/gl/handles.h>
 #include <vector>
 
 namespace sward::host {

@@ -5,12 +5,13 @@
 
 namespace sward::host {
 
-Expected<SceneFrame> SceneFrame::create(std::span<const Layer> layers, const Bounds& bounds,
+Expected<SceneFrame> SceneFrame::create(std::span<const Layer> layers, const SceneTerrain& terrain,
                                         const RoamOptions& options) {
-  auto mesh = RoamMesh::create(bounds, options);
+  auto mesh = RoamMesh::create(terrain.surface(), options);
   if (!mesh) return tl::unexpected(mesh.error());
   SceneFrame frame(std::move(*mesh));
-  frame.field_ = &bounds.field();
+  frame.lattice_ = terrain.surface().lattice();
+  if (terrain.world() != nullptr) frame.stream_.emplace(*terrain.world());
   frame.layers_.resize(layers.size());
   for (size_t i = 0; i < layers.size(); ++i) {
     if (auto valid = validate(layers[i]); !valid) return tl::unexpected(valid.error());
@@ -21,12 +22,23 @@ Expected<SceneFrame> SceneFrame::create(std::span<const Layer> layers, const Bou
 
 void SceneFrame::set_layer(size_t index, const Layer& layer) {
   layers_[index].layer = layer;
-  layers_[index].level = level_for_area(*field_, layer.triangle_area_m2);
+  layers_[index].level = level_for_area(lattice_, layer.triangle_area_m2);
   uint32_t species = 0;
   for (LayerFrame& each : layers_) {
     each.first_species = species;
     species += uint32_t(each.layer.species.size());
   }
+}
+
+Expected<std::vector<LatticeBox>> SceneFrame::stream(const View& view, Streaming streaming) {
+  if (!stream_) return std::vector<LatticeBox>();
+  Expected<std::vector<LatticeBox>> boxes =
+      streaming == Streaming::wait ? stream_->wait(view) : Expected<std::vector<LatticeBox>>(stream_->step(view));
+  if (!boxes || boxes->empty()) return boxes;
+  for (const LatticeBox& box : *boxes) mesh_.residency_changed(box);
+  // Areas of triangles come from slopes, which have changed where the mesh may not.
+  for (LayerFrame& each : layers_) each.triangles.memory().reset();
+  return boxes;
 }
 
 uint32_t SceneFrame::cut_triangles(const View& view) {

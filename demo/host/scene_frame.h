@@ -6,8 +6,12 @@
 #include <sward/terrain/roam_mesh.h>
 #include <sward/vegetation/plants.h>
 #include <sward/vegetation/seeding.h>
+#include <optional>
 #include <span>
 #include <vector>
+
+#include "host/scene_terrain.h"
+#include "host/world_stream.h"
 
 namespace sward::host {
 
@@ -23,8 +27,9 @@ struct LayerFrame {
 /// The half of a frame that needs no GL: mesh, fixed-level triangles, seeding. One thread at a time.
 class SceneFrame {
  public:
-  /// `bounds` and its field must outlive the frame.
-  static Expected<SceneFrame> create(std::span<const Layer> layers, const Bounds& bounds, const RoamOptions& options);
+  /// `terrain` must outlive the frame.
+  static Expected<SceneFrame> create(std::span<const Layer> layers, const SceneTerrain& terrain,
+                                     const RoamOptions& options);
 
   RoamMesh& mesh() { return mesh_; }
   const RoamMesh& mesh() const { return mesh_; }
@@ -32,6 +37,9 @@ class SceneFrame {
   /// Replaces a layer's species and rules; the next frame follows them.
   void set_layer(size_t index, const Layer& layer);
 
+  /// Worlds: takes over what has been loaded and asks for what the view wants; the boxes in which the ground has
+  /// changed, of which mesh and layers know. Before the mesh's update.
+  Expected<std::vector<LatticeBox>> stream(const View& view, Streaming streaming);
   /// Fixed-level triangles of every layer on the mesh of its last update. Returns how many.
   uint32_t cut_triangles(const View& view);
   /// Seeds the cut triangles.
@@ -43,7 +51,8 @@ class SceneFrame {
   explicit SceneFrame(RoamMesh mesh) : mesh_(std::move(mesh)) {}
   RoamMesh mesh_;
   std::vector<LayerFrame> layers_;
-  const HeightField* field_ = nullptr;
+  Lattice lattice_;
+  std::optional<WorldStream> stream_;
 };
 
 }  // namespace sward::host

@@ -4,6 +4,7 @@
 #include "host/scene_renderer.h"
 
 #include <chrono>
+#include <limits>
 #include <string_view>
 
 #include "host/gpu_timer.h"
@@ -13,6 +14,9 @@
 namespace sward::host {
 
 namespace {
+
+// Tiles of slopes that a frame reads while squares come and go: some 2 ms at most.
+constexpr size_t k_slope_tiles_a_frame = 4;
 
 // What is compiled from shaders, so that a reload can build it aside.
 struct Programs {
@@ -53,16 +57,32 @@ struct SceneRenderer::Impl {
   Programs programs;
   GpuTimer terrain_timer, classify_timer, grow_timer;
   bool vegetation_on = true, sky_on = true;
+  Streaming streaming = Streaming::live;
   float sun_azimuth = 0;  // of the last frame
 
+  Expected<void> stream(const View& view, SceneFrameStats& stats);
   Expected<void> draw_vegetation(const View& view, GLuint framebuffer, SceneFrameStats& stats);
   void gather(bool wait, SceneFrameStats& stats);
 };
 
+Expected<void> SceneRenderer::Impl::stream(const View& view, SceneFrameStats& stats) {
+  if (terrain.world() == nullptr) return {};
+  if (auto valid = view.validate(); !valid) return valid;
+  const auto begin = std::chrono::steady_clock::now();
+  auto boxes = cpu.stream(view, streaming);
+  if (!boxes) return tl::unexpected(boxes.error());
+  for (const LatticeBox& box : *boxes) ground.slopes().changed(box);
+  const size_t tiles = streaming == Streaming::wait ? std::numeric_limits<size_t>::max() : k_slope_tiles_a_frame;
+  ground.slopes().follow(terrain.surface(), glm::dvec2(view.eye), tiles);
+  stats.world = terrain.world()->stats();
+  stats.cpu_stream_ms = ms_since(begin);
+  return {};
+}
+
 Expected<void> SceneRenderer::Impl::draw_vegetation(const View& view, GLuint framebuffer, SceneFrameStats& stats) {
   const auto begin = std::chrono::steady_clock::now();
   stats.fixed_triangles = cpu.cut_triangles(view);
-  cpu.seed_triangles(view, terrain.colors);
+  cpu.seed_triangles(view, terrain.colors());
   for (size_t i = 0; i < programs.vegetation.size(); ++i) {
     const auto& layer = cpu.layers()[i];
     if (auto fits = programs.vegetation[i].upload(layer.seeding, layer.triangles, view); !fits) return fits;
@@ -103,11 +123,11 @@ Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTer
   RoamOptions options;
   options.max_triangles = scene.max_triangles;
   options.target_px = scene.target_px;
-  auto cpu = SceneFrame::create(scene.layers, terrain.bounds, options);
+  auto cpu = SceneFrame::create(scene.layers, terrain, options);
   if (!cpu) return tl::unexpected(cpu.error());
   auto frame = gl::Frame::create(bindings);
   if (!frame) return tl::unexpected(frame.error());
-  auto ground = gl::GroundTextures::create(terrain.field, terrain.colors);
+  auto ground = terrain.make_textures();
   if (!ground) return tl::unexpected(ground.error());
   auto programs = build_programs(scene.layers, shaders, bindings);
   if (!programs) return tl::unexpected(programs.error());
@@ -121,6 +141,7 @@ Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighti
                                               GLuint framebuffer, int samples, bool wait_for_stats) {
   Impl& self = *impl_;
   SceneFrameStats stats;
+  if (auto streamed = self.stream(view, stats); !streamed) return tl::unexpected(streamed.error());
   const auto begin = std::chrono::steady_clock::now();
   auto roam = self.cpu.mesh().update(view, time_s);
   if (!roam) return tl::unexpected(roam.error());
@@ -140,6 +161,16 @@ Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighti
   self.gather(wait_for_stats, stats);
   stats.bound_px = self.cpu.mesh().bound_px();
   return stats;
+}
+
+Expected<RoamStats> SceneRenderer::update(const View& view, double time_s) {
+  SceneFrameStats ignored;
+  if (auto streamed = impl_->stream(view, ignored); !streamed) return tl::unexpected(streamed.error());
+  return impl_->cpu.mesh().update(view, time_s);
+}
+
+void SceneRenderer::set_streaming(Streaming streaming) {
+  impl_->streaming = streaming;
 }
 
 void SceneRenderer::set_vegetation(bool enabled) {
@@ -177,7 +208,7 @@ const std::vector<Layer>& SceneRenderer::layers() const {
 }
 
 std::vector<Plant> SceneRenderer::plants_cpu(const View& view) const {
-  return impl_->cpu.plants(view, impl_->terrain.colors, impl_->sun_azimuth);
+  return impl_->cpu.plants(view, impl_->terrain.colors(), impl_->sun_azimuth);
 }
 
 Expected<std::vector<Plant>> SceneRenderer::plants_gpu(const View& view, GLuint framebuffer) {

@@ -9,32 +9,19 @@
 #include <memory>
 #include <optional>
 
+#include "host/scene_frame.h"
+#include "host/scene_terrain.h"
 #include "host/sky.h"
 
 namespace sward::host {
 
-/// A scene's terrain in memory: what needs no GL. Not movable once meshes refer to it, hence the pointer.
-struct SceneTerrain {
-  HeightField field;
-  Bounds bounds;
-  ColorMap colors;
-};
-/// Generates or loads what the scene names. `detail` false switches the relief below the data off. A height map without
-/// a texture is painted by slope. Fails too when the scene's camera has no ground below it to count its height from.
-Expected<std::unique_ptr<SceneTerrain>> load_terrain(const Scene& scene, bool detail, const Progress& progress = {});
-
-/// Near plane of the demo's views, metres, and a far plane that holds the whole field from anywhere near it.
-inline constexpr double k_near_plane_m = 0.1;
-double far_plane_m(const HeightField& field);
-
-/// Where the scene's camera stands (z above the ground resolved), looking along its yaw and pitch.
-View scene_view(const Scene& scene, const SceneTerrain& terrain, glm::ivec2 viewport);
-
 struct SceneFrameStats {
   RoamStats roam;
+  std::optional<WorldStats> world;  ///< Empty where the ground is no world.
   float bound_px = 0;
   uint32_t fixed_triangles = 0;
   VegetationStats vegetation;  ///< Sums over the layers.
+  double cpu_stream_ms = 0;    ///< Worlds: following the view, taking squares over, slopes for shading.
   double cpu_roam_ms = 0;      ///< Update and upload of what changed.
   double cpu_seeding_ms = 0;   ///< Fixed-level triangles, seeding, upload.
   /// Of this frame when waited for, else of the newest frame whose times have arrived; empty where the driver cannot
@@ -55,10 +42,14 @@ class SceneRenderer {
   SceneRenderer& operator=(SceneRenderer&&) noexcept;
   ~SceneRenderer();
 
+  /// A frame of which nothing is seen: streaming and the mesh alone.
+  Expected<RoamStats> update(const View& view, double time_s);
   /// Draws sky, terrain and vegetation into `framebuffer`, which is bound with depth test on. Leaves no sward object
   /// bound.
   Expected<SceneFrameStats> draw(const View& view, const gl::Lighting& lighting, double time_s, GLuint framebuffer,
                                  int samples, bool wait_for_stats);
+  /// Worlds: whether frames wait for the squares that they want. From the start they do not.
+  void set_streaming(Streaming streaming);
   /// Without vegetation when false (the paper's figure 7 needs both).
   void set_vegetation(bool enabled);
   /// Without the sky when false, for hosts that have their own.

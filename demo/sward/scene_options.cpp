@@ -28,7 +28,35 @@ std::string absolute(const std::string& path) {
   return std::filesystem::absolute(path, ignored).string();
 }
 
+// Puts the camera at eye level in the middle of ground that is not the scene's own.
+void stand_in_the_middle(Scene& scene) {
+  scene.camera = glm::dvec3(0, 0, 1.7);
+  scene.camera_above_ground = scene.camera_from_middle = true;
+}
+
+Expected<void> override_world(const SceneOptions& options, Scene& scene) {
+  if (!options.world.empty()) {
+    if (!options.height.empty()) return fail("--world and --height contradict each other: name one of them");
+    scene.generator.clear();
+    scene.height_path.clear();
+    scene.world_path = absolute(options.world);
+    stand_in_the_middle(scene);
+  }
+  const bool over_world = !scene.world_path.empty() && options.height.empty();
+  if (over_world && options.detail_given && options.detail == "on")
+    return fail("--detail on: a world has no relief below its data; leave it out");
+  if (!options.memory_mb) return {};
+  if (scene.world_path.empty()) return fail("--memory is the cap of a world, and this scene has none; add --world");
+  if (!(*options.memory_mb > 0 && *options.memory_mb <= 1e9)) return fail("--memory must be megabytes above 0");
+  scene.world_memory_mb = *options.memory_mb;
+  return {};
+}
+
 Expected<void> override_heights(const SceneOptions& options, Scene& scene) {
+  if (!options.height.empty() && !scene.world_path.empty()) {
+    scene.world_path.clear();
+    stand_in_the_middle(scene);
+  }
   if (!options.height.empty()) {
     if (!scene.generator.empty()) {
       scene.generator.clear();
@@ -38,6 +66,8 @@ Expected<void> override_heights(const SceneOptions& options, Scene& scene) {
     scene.height_path = absolute(options.height);
   }
   const bool scaled = !options.spacing.empty() || options.height_scale || options.height_offset;
+  if (scaled && !scene.world_path.empty())
+    return fail("--spacing, --height-scale and --height-offset are those that a world was baked with; leave them out");
   if (scaled && scene.height_path.empty())
     return fail(
         "--spacing, --height-scale and --height-offset need a height map: this scene is generated; add --height");
@@ -61,6 +91,7 @@ Expected<void> override_view(const SceneOptions& options, Scene& scene) {
     if (!camera) return tl::unexpected(camera.error());
     scene.camera = camera->position;
     scene.camera_above_ground = camera->above_ground;
+    scene.camera_from_middle = false;
     scene.camera_yaw = glm::radians(camera->yaw_degrees);
     scene.camera_pitch = glm::radians(camera->pitch_degrees);
   }
@@ -86,12 +117,20 @@ void add_scene_options(CLI::App& app, SceneOptions& options, bool detail_by_defa
       ->check(as_check([](const std::string& text) { return parse_numbers(text, 1, 2); }));
   app.add_option("--height-scale", options.height_scale, "Metres a raw unit of the height map")->type_name("M");
   app.add_option("--height-offset", options.height_offset, "Metres added to every height")->type_name("M");
+  app.add_option("--world", options.world, "World that bake made instead of the scene's ground")->type_name("FOLDER");
+  app.add_option("--memory", options.memory_mb, "Most megabytes of a world's heights and bounds; default: 512")
+      ->type_name("MB");
   app.add_option("--texture", options.texture, "Colour map instead of the scene's")->type_name("FILE");
   app.add_option("--triangles", options.triangles, "Terrain triangle budget instead of the scene's")->type_name("N");
   app.add_option("--detail", options.detail, "Relief below the data")
       ->check(CLI::IsMember({"on", "off"}))
+      ->each([&options](const std::string&) { options.detail_given = true; })
       ->type_name("on|off")
       ->capture_default_str();
+}
+
+void add_wait_option(CLI::App& app, bool& wait) {
+  app.add_flag("--wait", wait, "Every frame waits for the squares of a world that it wants: the same in every run");
 }
 
 void add_camera_option(CLI::App& app, SceneOptions& options) {
@@ -110,11 +149,17 @@ void add_sun_option(CLI::App& app, SceneOptions& options) {
 Expected<Scene> make_scene(const SceneOptions& options) {
   auto scene = read_scene(options.scene);
   if (!scene) return scene;
+  if (auto done = override_world(options, *scene); !done) return tl::unexpected(done.error());
   if (auto done = override_heights(options, *scene); !done) return tl::unexpected(done.error());
   if (auto done = override_view(options, *scene); !done) return tl::unexpected(done.error());
   if (!options.texture.empty()) scene->texture_path = absolute(options.texture);
   scene->max_triangles = options.triangles.value_or(scene->max_triangles);
   return scene;
+}
+
+Expected<void> check_wait(const Scene& scene, bool wait) {
+  if (!wait || !scene.world_path.empty()) return {};
+  return fail("--wait is for worlds, and this scene has none; add --world");
 }
 
 Expected<std::unique_ptr<host::SceneTerrain>> make_terrain(const Scene& scene, const SceneOptions& options) {

@@ -127,8 +127,8 @@ const BadBake k_bad[] = {
     {"NoRow", "bake MAP -o world --images-a-row 0", 1, "--images-a-row"},
     {"NoSpacing", "bake MAP -o world --spacing 0", 1, "spacing"},
     {"MissingWorld", "mesh --world none --flight MAP", 1, "sward bake"},
-    {"WorldAndScene", "mesh meadow --world none --flight MAP", 1, "takes the place of a scene"},
-    {"WaitWithoutWorld", "mesh --wait", 2, "--world"},
+    {"WorldAndHeight", "mesh --height MAP --world none --flight MAP", 1, "contradict"},
+    {"WaitWithoutWorld", "mesh --wait", 1, "--world"},
     {"NoScale", "bake MAP -o world --height-scale 0", 1, "scale"},
 };
 

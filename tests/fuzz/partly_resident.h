@@ -28,6 +28,8 @@ class PartlyResident final : public sward::Surface {
   float bound(sward::LatticePoint centre, int level) const override { return field_.bound(centre, level); }
   glm::dvec2 data_gradient(glm::dvec2 xy) const override { return field_.data_gradient(xy); }
   bool all_holes(const sward::LatticeBox& box) const override { return field_.all_holes(box); }
+  double height(glm::dvec2 xy) const override { return field_.height(xy); }
+  glm::dvec2 height_range() const override { return field_.height_range(); }
   bool can_split(sward::LatticePoint centre, int level) const override {
     if (level < coarsest_ || present_.all()) return true;
     if (level >= lattice().max_level) return false;

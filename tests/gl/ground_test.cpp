@@ -45,7 +45,8 @@ ColorMap numbered_map(int width, int height) {
 
 std::vector<glm::vec2> read_slopes(const gl::GroundTextures& ground, glm::ivec2 size) {
   std::vector<glm::vec2> slopes(size_t(size.x * size.y));
-  glGetTextureImage(ground.slope_map(), 0, GL_RG, GL_FLOAT, GLsizei(slopes.size() * sizeof(glm::vec2)), slopes.data());
+  glGetTextureImage(ground.slopes().texture(), 0, GL_RG, GL_FLOAT, GLsizei(slopes.size() * sizeof(glm::vec2)),
+                    slopes.data());
   return slopes;
 }
 
@@ -99,8 +100,8 @@ TEST_F(Ground, SlopesOfAPlaneAreItsGradientEverywhere) {
   // Texel centres stand on samples: the map reaches half a spacing beyond the data.
   EXPECT_EQ(ground->data_min(), glm::dvec2(1000 - 8, 2000 - 12.5));
   EXPECT_EQ(ground->data_max(), glm::dvec2(1000 + 8, 2000 + 12.5));
-  EXPECT_EQ(ground->field_min(), glm::dvec2(1000 - 9, 2000 - 15));
-  EXPECT_EQ(ground->field_size(), glm::dvec2(18, 30));
+  EXPECT_EQ(ground->slopes().layer_min(0), glm::dvec2(1000 - 9, 2000 - 15));
+  EXPECT_EQ(ground->slopes().layer_size(0), glm::dvec2(18, 30));
 }
 
 TEST_F(Ground, SlopesAreCentralDifferencesOfTheirOwnSample) {
@@ -139,7 +140,7 @@ TEST_F(Ground, SlopesOfAnEditedFieldAreThoseOfANewMap) {
     for (glm::ivec2 size(75, 52);; size = glm::max(size / 2, glm::ivec2(1))) {
       std::vector<glm::vec2> level(size_t(size.x * size.y));
       const GLint number = GLint(std::log2(75 / size.x + 0.5));
-      glGetTextureImage(of.slope_map(), number, GL_RG, GL_FLOAT, GLsizei(level.size() * sizeof(glm::vec2)),
+      glGetTextureImage(of.slopes().texture(), number, GL_RG, GL_FLOAT, GLsizei(level.size() * sizeof(glm::vec2)),
                         level.data());
       all.insert(all.end(), level.begin(), level.end());
       if (size == glm::ivec2(1)) return all;

@@ -103,14 +103,13 @@ class Golden : public test::GlTest {
                               glm::dvec3 origin = glm::dvec3(0)) {
     auto field = make_hills(origin);
     EXPECT_TRUE(field);
-    auto terrain = std::make_unique<host::SceneTerrain>(host::SceneTerrain{std::move(*field), {}, {}});
-    terrain->bounds = Bounds::create(terrain->field);
-    terrain->colors = make_colors(terrain->field);
+    ColorMap colors = make_colors(*field);
+    const auto terrain = std::make_unique<host::SceneTerrain>(std::move(*field), std::move(colors));
     auto renderer = host::SceneRenderer::create(make_scene(), *terrain, gl::ShaderLibrary());
     auto target = host::RenderTarget::create(k_size, 4);
     if (!renderer || !target) return {};
     const glm::dvec2 xy = glm::dvec2(origin) + glm::dvec2(above_ground);
-    const glm::dvec3 eye(xy, terrain->field.height(xy) + above_ground.z);
+    const glm::dvec3 eye(xy, terrain->surface().height(xy) + above_ground.z);
     const View view = View::look(eye, yaw * k_radians, pitch * k_radians, 50 * k_radians, k_size, 0.1, 2000);
     target->begin();
     const auto lighting = gl::Lighting::clear_day(float(200 * k_radians), float(sun_elevation * k_radians));

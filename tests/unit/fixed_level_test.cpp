@@ -210,6 +210,8 @@ class SlopedSurface final : public sward::Surface {
     return xy.x < 0 ? glm::dvec2(west, 0) : glm::dvec2(east, 0);
   }
   bool all_holes(const LatticeBox& box) const override { return flat_.all_holes(box); }
+  double height(glm::dvec2 xy) const override { return flat_.height(xy); }
+  glm::dvec2 height_range() const override { return flat_.height_range(); }
   double west = 0, east = 0;
 
  private:

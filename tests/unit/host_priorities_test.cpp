@@ -526,6 +526,8 @@ class PartlyResident final : public Surface {
   bool can_split(LatticePoint, int level) const override { return resident || level < 6; }
   glm::dvec2 data_gradient(glm::dvec2 xy) const override { return all_.data_gradient(xy); }
   bool all_holes(const LatticeBox& box) const override { return all_.all_holes(box); }
+  double height(glm::dvec2 xy) const override { return all_.height(xy); }
+  glm::dvec2 height_range() const override { return all_.height_range(); }
 
  private:
   FieldSurface all_;

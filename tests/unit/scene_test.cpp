@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sward/scene/scene.h>
+#include <sward/terrain/world.h>
 
 #include <cmath>
 #include <filesystem>
@@ -364,9 +365,39 @@ TEST(Scene, LargestHueStaysBelowAFullTurn) {
   EXPECT_LT(scene->layers[0].species[0].reference_hsv.x, 1.0f);
 }
 
+TEST(Scene, Worlds) {
+  const auto scene = parse_scene("[terrain]\nworld = \"tiles/w\"\nmemory_mb = 1500.5\nworth_px = 2\n", "t.toml");
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->world_path, "tiles/w");
+  EXPECT_EQ(scene->world_memory_mb, 1500.5);
+  EXPECT_EQ(scene->world_worth_px, 2.0f);
+  EXPECT_EQ(scene->generator + scene->height_path, "");
+  EXPECT_FALSE(scene->camera_from_middle);
+  // Defaults are the library's.
+  EXPECT_EQ(size_t(Scene().world_memory_mb * (1 << 20)), WorldOptions().memory_bytes);
+  EXPECT_EQ(Scene().world_worth_px, WorldOptions().worth_px);
+
+  const std::string world = "[terrain]\nworld = \"w\"\n";
+  for (const char* line : {"memory_mb = 0", "memory_mb = -1", "memory_mb = inf", "memory_mb = 1e10",
+                           "memory_mb = \"512\"", "worth_px = -0.5", "worth_px = nan", "worth_px = true"})
+    expect_error(world + line + "\n", 3, std::string(line).substr(0, std::string(line).find(' ')) + " = ");
+  for (const char* line : {"seed = 1", "samples = 257", "size_m = 9"})
+    expect_error(world + line + "\n", 3, "has no effect on a world");
+  for (const char* line : {"spacing_m = 2", "height_scale_m = 2", "height_offset_m = 1", "no_data = 0",
+                           "origin_m = [0, 0, 0]", "relief = { smooth = false }"})
+    expect_error(world + line + "\n", 3, "has no effect on a world, which was baked with its own");
+  expect_error("[terrain]\nworld = 3\n", 2, "world = 3 in [terrain]: expected the path of a folder");
+  expect_error("[terrain]\nworld = \"\"\n", 2, "world = ");
+  expect_error("[terrain]\nwrold = \"w\"\n", 2, "expected \"world\"");
+  expect_error("[terrain]\nheight = \"a.png\"\nworld = \"w\"\n", 3, "height and world contradict");
+  expect_error("[terrain]\nworld = \"w\"\ngenerator = \"meadow\"\n", 2, "generator and world contradict");
+  expect_error("[terrain]\nheight = \"a.png\"\nmemory_mb = 9\n", 3, "memory_mb has no effect on ground that is no");
+  expect_error("[terrain]\nworth_px = 1\ngenerator = \"meadow\"\n", 2, "worth_px has no effect");
+}
+
 TEST(Scene, Contradictions) {
   expect_error("[terrain]\ngenerator = \"meadow\"\nheight = \"a.png\"\n", 3, "contradict");
-  expect_error("[terrain]\nmax_triangles = 100\n", 1, "expected generator = \"meadow\" or height");
+  expect_error("[terrain]\nmax_triangles = 100\n", 1, "expected generator = \"meadow\", height = \"FILE\" or world");
   expect_error("name = \"x\"\n", 1, "no [terrain]");
   expect_error("", 1, "no [terrain]");
   expect_error("[terrain]\ngenerator = \"meadow\"\nspacing_m = 2\n", 3, "spacing_m has no effect on generated terrain");

@@ -99,12 +99,12 @@ SwardDrawable::~SwardDrawable() {
 
 osg::BoundingBox SwardDrawable::computeBoundingBox() const {
   if (!terrain_) return {};
-  const glm::dvec2 low = terrain_->field.min_corner(), high = terrain_->field.max_corner();
-  const glm::dvec2 heights = terrain_->field.height_range();
+  const Lattice& lattice = terrain_->surface().lattice();
+  const glm::dvec2 low = lattice.min_corner(), high = lattice.max_corner();
+  const glm::dvec2 heights = terrain_->surface().height_range();
   float canopy = 0;
   for (const Layer& layer : scene_.layers) canopy = std::max(canopy, canopy_height(layer));
-  const double relief = terrain_->field.relief_amplitude();
-  return {osg::Vec3d(low.x, low.y, heights.x - relief), osg::Vec3d(high.x, high.y, heights.y + relief + canopy)};
+  return {osg::Vec3d(low.x, low.y, heights.x), osg::Vec3d(high.x, high.y, heights.y + canopy)};
 }
 
 host::SceneRenderer* SwardDrawable::renderer_for(unsigned context) const {

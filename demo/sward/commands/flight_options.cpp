@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "host/scene_renderer.h"
 #include "sward/arguments.h"
 
 namespace sward::tool {
@@ -32,16 +31,20 @@ Expected<void> check_path(const PathOptions& options) {
   return size ? check_size(*size) : tl::unexpected(size.error());
 }
 
-Expected<std::vector<host::FlightFrame>> make_path(const PathOptions& options, const HeightField& field) {
+Expected<std::vector<host::FlightFrame>> make_path(const PathOptions& options, const host::SceneTerrain& terrain) {
+  if (options.flight == "paper" && terrain.world() != nullptr)
+    return fail(
+        "over a world the flight comes from a file (--flight FILE.csv): the built-in one follows ground that is "
+        "all there");
   auto size = parse_size(options.size);
   if (!size) return tl::unexpected(size.error());
   host::FlightOptions path;
   path.fps = options.fps;
   path.viewport = *size;
   path.near_plane = host::k_near_plane_m;
-  path.far_plane = host::far_plane_m(field);
+  path.far_plane = host::far_plane_m(terrain.surface());
   if (options.flight == "paper")
-    return host::paper_flight(field, options.seconds.value_or(host::k_paper_flight_s), path);
+    return host::paper_flight(terrain.surface(), options.seconds.value_or(host::k_paper_flight_s), path);
   auto frames = host::load_flight(options.flight, path);
   if (!frames || !options.seconds) return frames;
   const double end = frames->front().time_s + *options.seconds;

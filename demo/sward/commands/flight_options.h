@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "host/flight.h"
+#include "host/scene_terrain.h"
 
 namespace sward::tool {
 
@@ -21,8 +22,8 @@ void add_path_options(CLI::App& app, PathOptions& options);
 
 /// Checks the numbers that need no field: call it before long work.
 Expected<void> check_path(const PathOptions& options);
-/// Loads or computes the frames over the field.
-Expected<std::vector<host::FlightFrame>> make_path(const PathOptions& options, const HeightField& field);
+/// Loads or computes the frames over the scene's ground. Over a world they come from a file.
+Expected<std::vector<host::FlightFrame>> make_path(const PathOptions& options, const host::SceneTerrain& terrain);
 /// Fails when the path has no frame of that number (--at).
 Expected<void> check_frame(size_t at, const std::vector<host::FlightFrame>& path);
 

@@ -25,7 +25,7 @@ struct FlyOptions {
   SceneOptions scene;
   PathOptions path;
   std::string samples = "max", csv, summary, plots, video;
-  bool no_plants = false;
+  bool no_plants = false, wait = false;
 };
 
 Expected<void> check(const FlyOptions& options) {
@@ -118,6 +118,7 @@ Expected<void> fly(FlyOptions options, bool size_given) {
   if (auto checked = check(options); !checked) return checked;
   auto scene = make_scene(options.scene);
   if (!scene) return tl::unexpected(scene.error());
+  if (auto checked = check_wait(*scene, options.wait); !checked) return checked;
   auto context = host::EglContext::create(false);
   if (!context) return tl::unexpected(context.error());
   auto samples = parse_samples(options.samples);
@@ -126,7 +127,7 @@ Expected<void> fly(FlyOptions options, bool size_given) {
   if (auto tried = host::RenderTarget::create({1, 1}, *samples); !tried) return tl::unexpected(tried.error());
   auto terrain = make_terrain(*scene, options.scene);
   if (!terrain) return tl::unexpected(terrain.error());
-  auto path = make_path(options.path, (*terrain)->field);
+  auto path = make_path(options.path, **terrain);
   if (!path) return tl::unexpected(path.error());
   if (!size_given) *size = path->front().view.viewport;
   if (auto checked = check_viewports(*path, *size); !checked) return checked;
@@ -135,6 +136,7 @@ Expected<void> fly(FlyOptions options, bool size_given) {
   auto renderer = host::SceneRenderer::create(*scene, **terrain, gl::ShaderLibrary());
   if (!renderer) return tl::unexpected(renderer.error());
   renderer->set_vegetation(!options.no_plants);
+  if (options.wait) renderer->set_streaming(host::Streaming::wait);
 
   auto flown = fly_frames(options, *scene, *path, *target, *renderer);
   if (!flown) return tl::unexpected(flown.error());
@@ -167,6 +169,7 @@ Command add_fly(CLI::App& parent) {
       ->type_name("N|max")
       ->check(as_check(parse_samples))
       ->capture_default_str();
+  add_wait_option(*app, options->wait);
   app->add_flag("--no-plants", options->no_plants, "Terrain and sky alone");
   app->add_option("--csv", options->csv, "One row of figures a frame")->type_name("FILE");
   app->add_option("--summary", options->summary, "Median, mean, p95, p99, max of every figure as JSON")

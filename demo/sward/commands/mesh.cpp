@@ -26,26 +26,23 @@ struct MeshOptions {
   std::string timings, output;
   std::optional<size_t> at;
   float target_px = 0;
-  bool all = false, no_morph = false, plain = false;
+  bool wait = false, all = false, no_morph = false, plain = false;
 };
 
-// The same options for a world in the place of a scene.
-Expected<void> mesh_of_world(const MeshOptions& options, WorldMeshOptions world) {
-  if (auto checked = check_output(options.timings); !checked) return checked;
-  if (auto checked = check_output(options.output); !checked) return checked;
-  if (auto checked = check_path(options.path); !checked) return checked;
-  if (!options.scene.scene.empty() || !options.scene.height.empty())
-    return fail("--world takes the place of a scene and of --height: name one of them");
+// The same options for a world in the place of a height field.
+Expected<void> mesh_of_world(const MeshOptions& options, const Scene& scene) {
+  WorldMeshOptions world;
   world.path = options.path;
+  world.wait = options.wait;
   world.timings = options.timings;
   world.output = options.output;
   world.at = options.at;
-  world.triangles = options.scene.triangles.value_or(world.triangles);
-  world.target_px = options.target_px;
+  world.triangles = scene.max_triangles;
+  world.target_px = options.target_px > 0 ? options.target_px : scene.target_px;
   world.all = options.all;
   world.no_morph = options.no_morph || options.plain;
   world.plain = options.plain;
-  return mesh_over_world(world);
+  return mesh_over_world(scene, world);
 }
 
 struct MeshRow {
@@ -129,9 +126,11 @@ Expected<void> mesh(const MeshOptions& options) {
   if (auto checked = check_path(options.path); !checked) return checked;
   auto scene = make_scene(options.scene);
   if (!scene) return tl::unexpected(scene.error());
+  if (auto checked = check_wait(*scene, options.wait); !checked) return checked;
+  if (!scene->world_path.empty()) return mesh_of_world(options, *scene);
   auto terrain = make_terrain(*scene, options.scene);
   if (!terrain) return tl::unexpected(terrain.error());
-  auto path = make_path(options.path, (*terrain)->field);
+  auto path = make_path(options.path, **terrain);
   if (!path) return tl::unexpected(path.error());
   if (options.at)
     if (auto checked = check_frame(*options.at, *path); !checked) return checked;
@@ -142,7 +141,7 @@ Expected<void> mesh(const MeshOptions& options) {
   roam.plain = options.plain;
   if (options.plain) roam.hysteresis = 0;
   if (options.no_morph) roam.morph_s = 0;
-  auto frame = host::SceneFrame::create(scene->layers, (*terrain)->bounds, roam);
+  auto frame = host::SceneFrame::create(scene->layers, **terrain, roam);
   if (!frame) return tl::unexpected(frame.error());
   // Timings want the whole flight; a mesh alone only what leads to its frame.
   const size_t count = options.timings.empty() && options.at ? *options.at + 1 : path->size();
@@ -172,10 +171,9 @@ Expected<void> mesh(const MeshOptions& options) {
 
 Command add_mesh(CLI::App& parent) {
   auto options = std::make_shared<MeshOptions>();
-  auto world = std::make_shared<WorldMeshOptions>();
   CLI::App* app = parent.add_subcommand("mesh", "Run the terrain mesh alone over a camera path, without GL");
   add_scene_options(*app, options->scene, false);
-  add_world_options(*app, *world);
+  add_wait_option(*app, options->wait);
   add_path_options(*app, options->path);
   app->add_option("--target-px", options->target_px, "Stop refining when the bound is this small; 0: use the budget")
       ->type_name("PX");
@@ -187,7 +185,7 @@ Command add_mesh(CLI::App& parent) {
   app->add_flag("--all", options->all, "All leaves, not only the visible ones")->needs(output);
   app->add_flag("--no-morph", options->no_morph, "Vertices stand at their final height at once");
   app->add_flag("--plain", options->plain, "As published in 1997: no hysteresis, no morph");
-  return {app, [options, world] { return world->folder.empty() ? mesh(*options) : mesh_of_world(*options, *world); }};
+  return {app, [options] { return mesh(*options); }};
 }
 
 }  // namespace sward::tool

@@ -6,14 +6,12 @@
 #include <sward/terrain/world.h>
 
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <thread>
 
 #include "host/flight.h"
 #include "host/scene_renderer.h"
 #include "host/stopwatch.h"
-#include "sward/arguments.h"
 #include "sward/output/figures.h"
 #include "sward/output/files.h"
 #include "sward/output/ply.h"
@@ -29,27 +27,6 @@ struct Row {
   float bound_px = 0;
   WorldStats world;
 };
-
-Expected<std::vector<host::FlightFrame>> world_path(const PathOptions& options, const World& world) {
-  if (options.flight == "paper")
-    return fail(
-        "over a world the flight comes from a file: the built-in one "
-        "follows the ground of a height map");
-  const auto size = parse_size(options.size);
-  if (!size) return tl::unexpected(size.error());
-  host::FlightOptions path;
-  path.fps = options.fps;
-  path.viewport = *size;
-  path.near_plane = host::k_near_plane_m;
-  const Lattice& lattice = world.lattice();
-  const glm::dvec2 heights = world.height_range();
-  path.far_plane = 1000 + 2 * (glm::length(lattice.max_corner() - lattice.min_corner()) + heights.y - heights.x);
-  auto frames = host::load_flight(options.flight, path);
-  if (!frames || !options.seconds) return frames;
-  const double end = frames->front().time_s + *options.seconds;
-  std::erase_if(*frames, [end](const host::FlightFrame& frame) { return frame.time_s >= end; });
-  return frames;
-}
 
 void poll(World& world, RoamMesh& mesh) {
   for (const LatticeBox& box : world.poll()) mesh.residency_changed(box);
@@ -111,29 +88,14 @@ void print_result(const std::vector<Row>& rows) {
                 last.last_error.c_str());
 }
 
-Expected<std::unique_ptr<World>> open_world(const WorldMeshOptions& options) {
-  if (!(options.memory_mb > 0 && options.memory_mb <= 1e9)) return fail("--memory must be megabytes above 0");
-  WorldOptions world;
-  world.memory_bytes = size_t(options.memory_mb * (1 << 20));
-  return World::open(options.folder, world);
-}
-
 }  // namespace
 
-void add_world_options(CLI::App& app, WorldMeshOptions& options) {
-  CLI::Option* world =
-      app.add_option("--world", options.folder, "World that bake made, instead of a scene")->type_name("FOLDER");
-  app.add_option("--memory", options.memory_mb, "Most megabytes of a world's heights and bounds")
-      ->type_name("MB")
-      ->capture_default_str()
-      ->needs(world);
-  app.add_flag("--wait", options.wait, "Every frame waits for the squares that it wants")->needs(world);
-}
-
-Expected<void> mesh_over_world(const WorldMeshOptions& options) {
-  auto world = open_world(options);
-  if (!world) return tl::unexpected(world.error());
-  auto path = world_path(options.path, **world);
+Expected<void> mesh_over_world(const Scene& scene, const WorldMeshOptions& options) {
+  // As the pictures' terrain, whose base map is not looked at here.
+  auto terrain = host::load_terrain(scene, false);
+  if (!terrain) return tl::unexpected(terrain.error());
+  World& world = *(*terrain)->world();
+  auto path = make_path(options.path, **terrain);
   if (!path) return tl::unexpected(path.error());
   if (options.at)
     if (auto checked = check_frame(*options.at, *path); !checked) return checked;
@@ -142,7 +104,7 @@ Expected<void> mesh_over_world(const WorldMeshOptions& options) {
   roam.target_px = options.target_px;
   roam.plain = options.plain;
   if (options.plain) roam.hysteresis = 0;
-  auto mesh = RoamMesh::create(**world, roam);
+  auto mesh = RoamMesh::create(world, roam);
   if (!mesh) return tl::unexpected(mesh.error());
 
   const size_t count = options.timings.empty() && options.at ? *options.at + 1 : path->size();
@@ -150,7 +112,7 @@ Expected<void> mesh_over_world(const WorldMeshOptions& options) {
   std::string ply;
   ProgressLine progress("mesh");
   for (size_t i = 0; i < count; ++i) {
-    auto row = run_frame((*path)[i], !options.no_morph, options.wait, **world, *mesh);
+    auto row = run_frame((*path)[i], !options.no_morph, options.wait, world, *mesh);
     if (!row) return fail("frame " + std::to_string(i) + ": " + row.error().message);
     rows.push_back(std::move(*row));
     if (options.at == i)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <sward/scene/scene.h>
 #include <optional>
 #include <string>
 
@@ -10,13 +10,9 @@
 
 namespace sward::tool {
 
-/// The mesh over a baked world instead of over a scene.
+/// The mesh over a scene's world.
 struct WorldMeshOptions {
-  std::string folder;      ///< Empty: no world.
-  double memory_mb = 512;  ///< Cap of heights and bounds.
-  bool wait = false;       ///< Every frame waits for what it wants: for measuring and
-                           ///< pictures.
-  // The command's own.
+  bool wait = false;  ///< Every frame waits for what it wants: for measuring.
   PathOptions path;
   std::string timings, output;
   std::optional<size_t> at;
@@ -25,10 +21,7 @@ struct WorldMeshOptions {
   bool all = false, no_morph = false, plain = false;
 };
 
-/// Declares --world, --memory and --wait.
-void add_world_options(CLI::App& app, WorldMeshOptions& options);
-
 /// Flies over the world, squares loaded and dropped as the flight goes.
-Expected<void> mesh_over_world(const WorldMeshOptions& options);
+Expected<void> mesh_over_world(const Scene& scene, const WorldMeshOptions& options);
 
 }  // namespace sward::tool

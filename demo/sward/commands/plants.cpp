@@ -42,14 +42,17 @@ Expected<std::vector<Plant>> plants_by_cpu(const Scene& scene, const host::Scene
   RoamOptions roam;
   roam.max_triangles = scene.max_triangles;
   roam.target_px = scene.target_px;
-  auto frame = host::SceneFrame::create(scene.layers, terrain.bounds, roam);
+  auto frame = host::SceneFrame::create(scene.layers, terrain, roam);
   if (!frame) return tl::unexpected(frame.error());
-  for (size_t i = 0; i <= at; ++i)
+  for (size_t i = 0; i <= at; ++i) {
+    if (auto streamed = frame->stream(path[i].view, host::Streaming::wait); !streamed)
+      return tl::unexpected(streamed.error());
     if (auto updated = frame->mesh().update(path[i].view, path[i].time_s); !updated)
       return tl::unexpected(updated.error());
+  }
   frame->cut_triangles(path[at].view);
-  frame->seed_triangles(path[at].view, terrain.colors);
-  return frame->plants(path[at].view, terrain.colors, scene.sun_azimuth);
+  frame->seed_triangles(path[at].view, terrain.colors());
+  return frame->plants(path[at].view, terrain.colors(), scene.sun_azimuth);
 }
 
 Expected<std::vector<Plant>> plants_by_gpu(const Scene& scene, const host::SceneTerrain& terrain, const Path& path,
@@ -58,9 +61,9 @@ Expected<std::vector<Plant>> plants_by_gpu(const Scene& scene, const host::Scene
   if (!target) return tl::unexpected(target.error());
   auto renderer = host::SceneRenderer::create(scene, terrain, gl::ShaderLibrary());
   if (!renderer) return tl::unexpected(renderer.error());
+  renderer->set_streaming(host::Streaming::wait);
   for (size_t i = 0; i < at; ++i)
-    if (auto updated = renderer->mesh().update(path[i].view, path[i].time_s); !updated)
-      return tl::unexpected(updated.error());
+    if (auto updated = renderer->update(path[i].view, path[i].time_s); !updated) return tl::unexpected(updated.error());
   target->begin();
   auto drawn = renderer->draw(path[at].view, make_lighting(scene), path[at].time_s, target->framebuffer(), 1, true);
   if (!drawn) return tl::unexpected(drawn.error());
@@ -80,7 +83,7 @@ Expected<void> plants(const PlantsOptions& options) {
   }
   auto terrain = make_terrain(*scene, options.scene);
   if (!terrain) return tl::unexpected(terrain.error());
-  auto path = make_path(options.path, (*terrain)->field);
+  auto path = make_path(options.path, **terrain);
   if (!path) return tl::unexpected(path.error());
   if (auto checked = check_frame(options.at, *path); !checked) return checked;
   auto grown = options.gpu ? plants_by_gpu(*scene, **terrain, *path, options.at)

@@ -11,6 +11,7 @@
 #include "sward/commands/commands.h"
 #include "sward/output/figures.h"
 #include "sward/output/files.h"
+#include "sward/output/progress.h"
 #include "sward/scene_options.h"
 
 namespace sward::tool {
@@ -32,6 +33,12 @@ std::string stats_json(const FrameFigures& figures) {
   return json.dump(2) + "\n";
 }
 
+// A picture is of all that its view wants.
+Expected<void> load_squares(const Scene& scene, const host::SceneTerrain& terrain, glm::ivec2 size) {
+  ProgressLine line("world");
+  return host::load_first_view(scene, terrain, size, line.callback());
+}
+
 Expected<void> render(const RenderOptions& options) {
   auto size = parse_size(options.size);
   auto samples = parse_samples(options.samples);
@@ -51,9 +58,11 @@ Expected<void> render(const RenderOptions& options) {
   if (!target) return tl::unexpected(target.error());
   auto terrain = make_terrain(*scene, options.scene);
   if (!terrain) return tl::unexpected(terrain.error());
+  if (auto loaded = load_squares(*scene, **terrain, *size); !loaded) return loaded;
   auto renderer = host::SceneRenderer::create(*scene, **terrain, gl::ShaderLibrary());
   if (!renderer) return tl::unexpected(renderer.error());
   renderer->set_vegetation(!options.no_plants);
+  renderer->set_streaming(host::Streaming::wait);
 
   const View view = host::scene_view(*scene, **terrain, *size);
   const auto begin = std::chrono::steady_clock::now();

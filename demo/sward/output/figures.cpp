@@ -32,6 +32,11 @@ constexpr FigureColumn k_columns[] = {
     {"gpu_grow_ms", &FrameFigures::gpu_grow_ms},
     {"frame_ms", &FrameFigures::frame_ms},
     {"peak_rss_mb", &FrameFigures::peak_rss_mb},
+    {"squares_resident", &FrameFigures::squares_resident},
+    {"squares_wanted", &FrameFigures::squares_wanted},
+    {"squares_failing", &FrameFigures::squares_failing},
+    {"world_mb", &FrameFigures::world_mb},
+    {"cpu_stream_ms", &FrameFigures::cpu_stream_ms},
 };
 
 double percentile(const std::vector<double>& sorted, double share) {
@@ -65,6 +70,12 @@ FrameFigures make_figures(const host::SceneFrameStats& stats, double time_s, dou
   figures.gpu_grow_ms = stats.gpu_grow_ms;
   figures.frame_ms = frame_ms;
   figures.peak_rss_mb = peak_rss_mb();
+  if (!stats.world) return figures;
+  figures.squares_resident = stats.world->resident;
+  figures.squares_wanted = stats.world->wanted;
+  figures.squares_failing = stats.world->failing;
+  figures.world_mb = double(stats.world->bytes) / (1 << 20);
+  figures.cpu_stream_ms = stats.cpu_stream_ms;
   return figures;
 }
 

@@ -24,6 +24,8 @@ struct FrameFigures {
   Figure triangles_drawn;    ///< All that were rasterised: terrain, plants, shadows.
   Figure splits, merges;
   Figure bound_px;
+  Figure squares_resident, squares_wanted, squares_failing, world_mb;  ///< Empty where the ground is no world.
+  Figure cpu_stream_ms;                                                ///< The same.
   Figure cpu_roam_ms, cpu_seeding_ms;
   Figure gpu_terrain_ms, gpu_classify_ms, gpu_grow_ms;
   Figure frame_ms;  ///< From the first call to the GPU's last.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <sward/terrain/height_field.h>
+#include <sward/terrain/surface.h>
 #include <sward/terrain/view.h>
 
 namespace sward::tool {
@@ -25,8 +25,8 @@ class WalkCamera {
   double speed = 4;  ///< Metres a second walking; flying is faster the higher it is.
 
   /// Moves by `seconds` of input. The camera never sinks below the ground.
-  void move(const CameraInput& input, double seconds, const HeightField& field);
-  View view(glm::ivec2 viewport, const HeightField& field) const;
+  void move(const CameraInput& input, double seconds, const Surface& surface);
+  View view(glm::ivec2 viewport, const Surface& surface) const;
 };
 
 }  // namespace sward::tool

@@ -17,6 +17,14 @@ void show_time(const char* name, std::optional<double> ms) {
     ImGui::Text("%-18s       -", name);
 }
 
+void show_world(const WorldStats& world) {
+  ImGui::Text("world squares      %u of %u wanted, %.0f MB", world.resident, world.wanted,
+              double(world.bytes) / (1 << 20));
+  if (world.failing == 0) return;
+  ImGui::TextColored({1, 0.6f, 0.3f, 1}, "%u squares fail", world.failing);
+  ImGui::TextWrapped("%s", world.last_error.c_str());
+}
+
 void show_statistics(const host::SceneFrameStats& stats, double frame_ms) {
   if (!ImGui::CollapsingHeader("Statistics", ImGuiTreeNodeFlags_DefaultOpen)) return;
   show_time("frame", frame_ms);
@@ -27,6 +35,7 @@ void show_statistics(const host::SceneFrameStats& stats, double frame_ms) {
   show_time("grow (GPU)", stats.gpu_grow_ms);
   ImGui::Text("terrain triangles  %u (%u splits, %u merges)", stats.roam.visible, stats.roam.splits, stats.roam.merges);
   ImGui::Text("error bound        %.2f px", double(stats.bound_px));
+  if (stats.world) show_world(*stats.world);
   ImGui::Text("fixed triangles    %u", stats.fixed_triangles);
   ImGui::Text("clusters           %u of %u fertile", stats.vegetation.clusters_fertile,
               stats.vegetation.clusters_submitted);

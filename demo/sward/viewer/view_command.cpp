@@ -114,7 +114,7 @@ Expected<void> run_window(Window& window, const ViewOptions& options, const Scen
     window.begin_frame();
     if (window.pressed_once(GLFW_KEY_F5)) reload(options.shaders, renderer, state);
     if (window.pressed_once(GLFW_KEY_F) && !ImGui::GetIO().WantCaptureKeyboard) camera.walking = !camera.walking;
-    camera.move(window.camera_input(), std::min(seconds, 0.1), terrain.field);
+    camera.move(window.camera_input(), std::min(seconds, 0.1), terrain.surface());
     draw_panel(state, camera, stats, seconds * 1000);
     apply_panel(state, renderer);
 
@@ -122,8 +122,8 @@ Expected<void> run_window(Window& window, const ViewOptions& options, const Scen
     if (size.x > 0 && size.y > 0) {
       begin_picture(size);
       const double time_s = std::chrono::duration<double>(now - start).count();
-      auto drawn =
-          renderer.draw(camera.view(size, terrain.field), panel_lighting(state), time_s, 0, window.samples(), false);
+      auto drawn = renderer.draw(camera.view(size, terrain.surface()), panel_lighting(state), time_s, 0,
+                                 window.samples(), false);
       if (!drawn) return tl::unexpected(drawn.error());
       stats = *drawn;
     }

@@ -140,11 +140,15 @@ FixedTriangles::Writer FixedTriangles::write(size_t triangles, size_t nodes) {
           {c.screen_area.data(), count_}, {c.distance.data(), count_}, {nodes_.data(), node_count_}};
 }
 
-int level_for_area(const HeightField& field, double area_m2) {
+int level_for_area(const Lattice& lattice, double area_m2) {
   SWARD_ASSERT(area_m2 > 0, "the area of a triangle must be positive");
-  const double cells = double(int64_t(1) << field.root_bits());
-  const double root_area = 0.5 * cells * cells * field.desc().spacing.x * field.desc().spacing.y;
+  const double cells = double(int64_t(1) << lattice.root_bits);
+  const double root_area = 0.5 * cells * cells * lattice.spacing.x * lattice.spacing.y;
   return int(std::clamp(std::round(std::log2(root_area / area_m2)), 0.0, double(k_max_level)));
+}
+
+int level_for_area(const HeightField& field, double area_m2) {
+  return level_for_area(field.lattice(), area_m2);
 }
 
 }  // namespace sward

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <sward/terrain/world.h>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <memory>
@@ -40,6 +41,7 @@ struct World::Impl {
   };
   struct Failure {
     int attempts = 0;
+    std::string message;
     std::chrono::steady_clock::time_point retry_at;
   };
 
@@ -58,6 +60,14 @@ struct World::Impl {
   bool ancestors_resident(LatticePoint centre, int level) const;
   glm::dvec2 fine_gradient(const SquareData& data, glm::ivec2 square, glm::ivec2 sample) const;
   glm::dvec2 coarse_gradient(glm::ivec2 at) const;
+  // Slopes at the corners of the coarse cell that was asked for last.
+  struct CoarseCell {
+    glm::ivec2 cell{-1};
+    std::array<glm::dvec2, 4> gradient;
+  };
+  glm::dvec2 coarse_gradient_between(glm::dvec2 place, CoarseCell& kept) const;
+  glm::dvec2 gradient_between(glm::dvec2 place) const;
+  glm::dvec2 wide_gradient(const SquareData& data, glm::ivec2 square, glm::ivec2 sample, int reach) const;
 
   // Residency; the controlling thread.
   Box box_of(glm::ivec2 square) const;

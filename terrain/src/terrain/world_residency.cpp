@@ -211,6 +211,7 @@ void World::Impl::note_failure(glm::ivec2 square, const std::string& message) {
   Failure& failure = failing[index];
   const double wait = std::ldexp(options.retry_s, std::min(failure.attempts, k_most_doublings));
   failure.attempts += 1;
+  failure.message = message;
   failure.retry_at = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                                                             std::chrono::duration<double>(wait));
   stats.failures += 1;
@@ -322,6 +323,16 @@ WorldStats World::stats() const {
   stats.given_up = uint32_t(w.loader.given_up());
   stats.bytes = w.base_bytes + w.squares_in_use() * w.layout.square_bytes(true);
   return stats;
+}
+
+std::vector<WorldFailure> World::failures() const {
+  std::vector<WorldFailure> all;
+  for (const auto& [index, failure] : impl_->failing)
+    all.push_back({impl_->square_of(index), failure.attempts, failure.message});
+  std::sort(all.begin(), all.end(), [](const WorldFailure& a, const WorldFailure& b) {
+    return a.square.y != b.square.y ? a.square.y < b.square.y : a.square.x < b.square.x;
+  });
+  return all;
 }
 
 }  // namespace sward

@@ -52,6 +52,11 @@ double interpolate(glm::dvec2 place, glm::ivec2 last, At&& at) {
   return se + (1.0 - u) * (sw - se) + (1.0 - v) * (ne - se);
 }
 
+// Corners in the order NW, NE, SW, SE; t within the cell.
+glm::dvec2 bilinear(const std::array<glm::dvec2, 4>& corner, glm::dvec2 t) {
+  return glm::mix(glm::mix(corner[0], corner[1], t.x), glm::mix(corner[2], corner[3], t.x), t.y);
+}
+
 float decode_bound(uint16_t code) {
   return code == world::k_nothing ? 0.0f : Bounds::decode(code);
 }
@@ -216,28 +221,69 @@ glm::dvec2 World::Impl::coarse_gradient(glm::ivec2 at) const {
           (coarse_height({at.x, low.y}) - coarse_height({at.x, high.y})) / ((high.y - low.y) * spacing.y)};
 }
 
+// `place` in coarse samples, on the data. Neighbours ask for the same cell many times.
+glm::dvec2 World::Impl::coarse_gradient_between(glm::dvec2 place, CoarseCell& kept) const {
+  const glm::ivec2 cell = glm::min(glm::ivec2(place), layout.coarse_last - 1);
+  if (cell != kept.cell) {
+    kept.cell = cell;
+    for (int corner = 0; corner < 4; ++corner)
+      kept.gradient[size_t(corner)] = coarse_gradient(cell + glm::ivec2(corner & 1, corner >> 1));
+  }
+  return bilinear(kept.gradient, place - glm::dvec2(cell));
+}
+
+// `place` in samples, on the data.
+glm::dvec2 World::Impl::gradient_between(glm::dvec2 place) const {
+  const glm::ivec2 cell = glm::min(glm::ivec2(place), layout.data_last - 1);
+  const glm::ivec2 square = cell >> layout.desc.root_bits;
+  const SquareData* data = fine(square);
+  CoarseCell coarse_cell;
+  if (data == nullptr) return coarse_gradient_between(place / double(layout.coarse_step), coarse_cell);
+  std::array<glm::dvec2, 4> gradient;
+  for (int corner = 0; corner < 4; ++corner)
+    gradient[size_t(corner)] = fine_gradient(*data, square, cell + glm::ivec2(corner & 1, corner >> 1));
+  return bilinear(gradient, place - glm::dvec2(cell));
+}
+
 glm::dvec2 World::data_gradient(glm::dvec2 xy) const {
   const world::Readers::Guard guard(impl_->readers);
-  const Impl& w = *impl_;
-  const WorldDesc& d = w.layout.desc;
-  const glm::dvec2 last(w.layout.data_last);
+  const WorldDesc& d = impl_->layout.desc;
+  const glm::dvec2 last(impl_->layout.data_last);
   const double x = (xy.x - d.origin.x) / d.spacing.x + 0.5 * last.x;
   const double y = 0.5 * last.y - (xy.y - d.origin.y) / d.spacing.y;
   // NaN, too, ends on the data.
-  const glm::dvec2 place(x > 0.0 ? std::min(x, last.x) : 0.0, y > 0.0 ? std::min(y, last.y) : 0.0);
-  const auto bilinear = [](glm::dvec2 at, glm::ivec2 end, auto&& gradient) {
-    const glm::ivec2 cell = glm::min(glm::ivec2(at), end - 1);
-    const glm::dvec2 t = at - glm::dvec2(cell);
-    const auto corner = [&](int i, int j) { return gradient(cell + glm::ivec2(i, j)); };
-    return glm::mix(glm::mix(corner(0, 0), corner(1, 0), t.x), glm::mix(corner(0, 1), corner(1, 1), t.x), t.y);
+  return impl_->gradient_between({x > 0.0 ? std::min(x, last.x) : 0.0, y > 0.0 ? std::min(y, last.y) : 0.0});
+}
+
+// Differences over `reach` samples to each side, as far as the square's ring and the data go.
+glm::dvec2 World::Impl::wide_gradient(const SquareData& data, glm::ivec2 square, glm::ivec2 sample, int reach) const {
+  const glm::ivec2 corner = square * layout.cells;
+  const glm::ivec2 low = glm::max(glm::max(sample - reach, corner - 1), glm::ivec2(0));
+  const glm::ivec2 high = glm::min(glm::min(sample + reach, corner + layout.cells + 1), layout.data_last);
+  const auto at = [&](int column, int row) {
+    return world::raw_sample(layout, data, glm::ivec2(column, row) - corner) * layout.desc.scale;
   };
-  const glm::ivec2 square = glm::min(glm::ivec2(place), w.layout.data_last - 1) >> d.root_bits;
-  if (const SquareData* data = w.fine(square)) {
-    return bilinear(place, w.layout.data_last,
-                    [&](glm::ivec2 sample) { return w.fine_gradient(*data, square, sample); });
-  }
-  return bilinear(place / double(w.layout.coarse_step), w.layout.coarse_last,
-                  [&](glm::ivec2 at) { return w.coarse_gradient(at); });
+  const glm::dvec2 spacing = layout.desc.spacing;
+  return {(at(high.x, sample.y) - at(low.x, sample.y)) / ((high.x - low.x) * spacing.x),
+          (at(sample.x, low.y) - at(sample.x, high.y)) / ((high.y - low.y) * spacing.y)};
+}
+
+void World::data_gradients(glm::ivec2 first, int stride, glm::ivec2 count, std::span<glm::vec2> out) const {
+  SWARD_ASSERT(out.size() == size_t(count.x) * size_t(count.y), "data_gradients: one place a sample");
+  const world::Readers::Guard guard(impl_->readers);
+  const Impl& w = *impl_;
+  const int reach = std::max(stride / 2, 1);
+  const double to_coarse = 1.0 / double(w.layout.coarse_step);
+  Impl::CoarseCell coarse_cell;
+  size_t i = 0;
+  for (int row = 0; row < count.y; ++row)
+    for (int column = 0; column < count.x; ++column) {
+      const glm::ivec2 sample = glm::clamp(first + stride * glm::ivec2(column, row), glm::ivec2(0), w.layout.data_last);
+      const glm::ivec2 square = glm::min(sample, w.layout.data_last - 1) >> w.layout.desc.root_bits;
+      const SquareData* data = w.fine(square);
+      out[i++] = glm::vec2(data != nullptr ? w.wide_gradient(*data, square, sample, reach)
+                                           : w.coarse_gradient_between(glm::dvec2(sample) * to_coarse, coarse_cell));
+    }
 }
 
 bool World::all_holes(const LatticeBox& box) const {

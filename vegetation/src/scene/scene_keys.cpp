@@ -76,17 +76,36 @@ Key<Scene> no_data_key() {
 
 Expected<void> check_terrain(const toml::table& table, const Scene& scene, const Context& context) {
   const bool generated = !scene.generator.empty(), read = !scene.height_path.empty();
+  const bool world = !scene.world_path.empty();
   if (generated && read) {
     return context.fail_at(*table.get("height"), "generator and height contradict each other, expected one of them");
   }
-  if (!generated && !read) {
-    return context.fail_at(table, "[terrain] has no ground, expected generator = \"meadow\" or height = \"FILE\"");
+  if (world && (generated || read)) {
+    return context.fail_at(*table.get("world"), std::string(generated ? "generator" : "height") +
+                                                    " and world contradict each other, expected one of them");
+  }
+  if (!generated && !read && !world) {
+    return context.fail_at(
+        table, "[terrain] has no ground, expected generator = \"meadow\", height = \"FILE\" or world = \"FOLDER\"");
+  }
+  if (!world) {
+    const auto no_world =
+        refuse(table, {"memory_mb", "worth_px"}, "on ground that is no world, expected only with world", context);
+    if (!no_world) return no_world;
+  }
+  if (world) {
+    const auto baked =
+        refuse(table, {"spacing_m", "height_scale_m", "height_offset_m", "no_data", "origin_m", "relief"},
+               "on a world, which was baked with its own, expected only with height", context);
+    if (!baked) return baked;
   }
   if (generated) {
     return refuse(table, {"spacing_m", "height_scale_m", "height_offset_m", "no_data", "origin_m"},
                   "on generated terrain, expected only with height", context);
   }
-  return refuse(table, {"seed", "samples", "size_m"}, "on a height file, expected only with generator", context);
+  return refuse(table, {"seed", "samples", "size_m"},
+                world ? "on a world, expected only with generator" : "on a height file, expected only with generator",
+                context);
 }
 
 // ---- [[layer.species]] ----
@@ -174,7 +193,8 @@ Expected<void> check_layer(const toml::table& table, const Layer& layer, const C
 Expected<void> check_scene(const toml::table& table, const Scene&, const Context& context) {
   if (!table.contains("terrain")) {
     return context.fail_at(table,
-                           "the scene has no [terrain], expected one with generator = \"meadow\" or height = \"FILE\"");
+                           "the scene has no [terrain], expected one with generator = \"meadow\", height = \"FILE\" "
+                           "or world = \"FOLDER\"");
   }
   return refuse_same_names(table, "layer", context);
 }
@@ -205,6 +225,9 @@ const Schema<Scene>& terrain_schema() {
        number("height_scale_m", &Scene::height_scale, {.not_zero = true}, "metres a raw unit"),
        number("height_offset_m", &Scene::height_offset, any_number(), "metres"), no_data_key(),
        triple("origin_m", &Scene::origin, any_number(), "metres"),
+       text("world", &Scene::world_path, "the path of a folder"),
+       number("memory_mb", &Scene::world_memory_mb, above_to(0, 1e9), "megabytes"),
+       number("worth_px", &Scene::world_worth_px, at_least(0), "pixels"),
        whole_number("max_triangles", &Scene::max_triangles, within(2, k_most_uint32)),
        number("target_px", &Scene::target_px, at_least(0), "pixels"),
        table<Scene, ReliefOptions>("relief", &Scene::relief, relief_schema())},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <sward/gl/handles.h>
+#include <sward/gl/slope_map.h>
 #include <sward/terrain/color_map.h>
 #include <sward/terrain/height_field.h>
 
@@ -16,6 +17,10 @@ class GroundTextures {
   /// base map does not validate. Filters are anisotropic where the device has that in hardware. Leaves all state as it
   /// was. Cost: a few hundred ms for maps of 8192 x 8192.
   static Expected<GroundTextures> create(const HeightField& field, const ColorMap& colors);
+  /// The same for a surface that may change or be of any size, such as a world: call slopes().follow() before each draw
+  /// and slopes().changed() with each box in which the data have changed. One object serves one eye at a time.
+  static Expected<GroundTextures> create(const Surface& surface, const ColorMap& colors,
+                                         const SlopeMapOptions& options = {});
 
   /// Takes the slopes of an edited field anew, where `changed` (EditResult::changed) is; then the map is what create()
   /// would make of the field now. `field` has the size that it was made from (asserted). Leaves all state as it was.
@@ -25,19 +30,22 @@ class GroundTextures {
 
   GLuint base_map() const { return base_map_.id(); }          ///< SRGB8_ALPHA8, trilinear, clamped
   GLuint base_map_raw() const { return base_map_raw_.id(); }  ///< RGBA8 view, level 0, for texelFetch
-  GLuint slope_map() const { return slope_map_.id(); }        ///< RG16F, trilinear, clamped
-  glm::dvec2 map_min() const { return map_min_; }             ///< World x, y of the base map's western, southern corner
-  glm::dvec2 map_size() const { return map_size_; }           ///< Metres
-  glm::dvec2 field_min() const { return field_min_; }         ///< Outer edge of the slope map's texels
-  glm::dvec2 field_size() const { return field_size_; }
+  SlopeMap& slopes() { return slopes_; }                      ///< Of the data, for shading
+  const SlopeMap& slopes() const { return slopes_; }
+  glm::dvec2 map_min() const { return map_min_; }    ///< World x, y of the base map's western, southern corner
+  glm::dvec2 map_size() const { return map_size_; }  ///< Metres
   glm::dvec2 data_min() const { return data_min_; }  ///< Western, southern corner of the height data
   glm::dvec2 data_max() const { return data_max_; }  ///< Eastern, northern; what lies beyond is padding
   glm::ivec2 texels() const { return texels_; }      ///< Base map, width and height
 
  private:
-  Texture base_map_, base_map_raw_, slope_map_;
-  glm::dvec2 map_min_{0}, map_size_{1}, field_min_{0}, field_size_{1}, data_min_{0}, data_max_{0};
-  glm::ivec2 texels_{1}, samples_{1};
+  explicit GroundTextures(SlopeMap slopes) : slopes_(std::move(slopes)) {}
+  static Expected<GroundTextures> create(const Lattice& lattice, const ColorMap& colors, Expected<SlopeMap> slopes);
+
+  SlopeMap slopes_;
+  Texture base_map_, base_map_raw_;
+  glm::dvec2 map_min_{0}, map_size_{1}, data_min_{0}, data_max_{0};
+  glm::ivec2 texels_{1};
 };
 
 }  // namespace sward::gl

@@ -161,6 +161,7 @@ struct FixedLevelOptions {
 };
 
 /// The level whose triangles' area is nearest to `area_m2` (geometrically), within [0, k_max_level].
+int level_for_area(const Lattice& lattice, double area_m2);
 int level_for_area(const HeightField& field, double area_m2);
 
 }  // namespace sward

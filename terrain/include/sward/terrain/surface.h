@@ -5,6 +5,7 @@
 #include <sward/terrain/bounds.h>
 #include <sward/terrain/lattice.h>
 #include <glm/glm.hpp>
+#include <span>
 
 namespace sward {
 
@@ -35,6 +36,15 @@ class Surface {
   virtual glm::dvec2 data_gradient(glm::dvec2 xy) const = 0;
   /// True when no valid sample lies in the box (its corners included, clamped to the data).
   virtual bool all_holes(const LatticeBox& box) const = 0;
+
+  /// Height at world x, y from the finest data there is at this moment; NaN outside of the data.
+  virtual double height(glm::dvec2 xy) const = 0;
+  /// Between which heights all of it lies, relief included, metres, world.
+  virtual glm::dvec2 height_range() const = 0;
+  /// Slopes of the data at the samples first + stride (i, j), 0 <= i < count.x, 0 <= j < count.y, row by row, north
+  /// first; beyond the data those of its edge. Strides above 1 may take differences over a stride, so that a slope
+  /// stands for the ground around. `out` has count.x * count.y places.
+  virtual void data_gradients(glm::ivec2 first, int stride, glm::ivec2 count, std::span<glm::vec2> out) const;
 };
 
 /// A field with its bounds, all of it resident. `bounds` and its field must outlive it.
@@ -53,6 +63,10 @@ class FieldSurface final : public Surface {
   }
   glm::dvec2 data_gradient(glm::dvec2 xy) const override { return field_->data_gradient(xy); }
   bool all_holes(const LatticeBox& box) const override;
+  double height(glm::dvec2 xy) const override { return field_->height(xy); }
+  glm::dvec2 height_range() const override {
+    return field_->height_range() + glm::dvec2(-1, 1) * field_->relief_amplitude();
+  }
 
  private:
   const Bounds* bounds_;

@@ -62,14 +62,22 @@ struct WorldStats {
   std::string last_error;  ///< Of the last failure; empty: none yet.
 };
 
+/// A square whose last load failed and that waits for another try.
+struct WorldFailure {
+  glm::ivec2 square{0};
+  int attempts = 0;     ///< Failed so far, >= 1.
+  std::string message;  ///< Of the last one.
+};
+
 /// Terrain of any size: coarse data everywhere, fine data where views need it, loaded and dropped by a background
 /// thread under a memory cap. No frame waits for a load; there is no crack whatever is resident: a diamond can be split
 /// where all the fine data is resident that it and the diamonds which have to be split before it depend on.
 ///
-/// Each frame: follow() with the views, poll(), surface_changed() of every mesh with each box that poll() gave, update.
+/// Each frame: follow() with the views, poll(), residency_changed() of every mesh with each box that poll() gave,
+/// update.
 ///
 ///   data      Surface calls and height(): any thread, at any time, without waiting.
-///   control   follow(), poll(), stats(): one thread at a time.
+///   control   follow(), poll(), settled(), stats(), failures(): one thread at a time.
 class World final : public Surface {
  public:
   /// A world that bake_world() made. Reads the index only (8 bytes a coarse cell); fails, naming the file, when it is
@@ -83,7 +91,7 @@ class World final : public Surface {
 
   const WorldDesc& desc() const;
   /// Lowest and highest height that any square can have, metres, world.
-  glm::dvec2 height_range() const;
+  glm::dvec2 height_range() const override;
 
   // Surface. Where no fine data is resident, heights are those of the coarse triangles and the gradient is theirs.
   const Lattice& lattice() const override;
@@ -95,7 +103,9 @@ class World final : public Surface {
   bool all_holes(const LatticeBox& box) const override;
 
   /// Height at world x, y from the finest data that is resident there; NaN outside of the data.
-  double height(glm::dvec2 xy) const;
+  double height(glm::dvec2 xy) const override;
+  /// Cost: some 25 ns a slope. Differences over a stride end at the square's ring.
+  void data_gradients(glm::ivec2 first, int stride, glm::ivec2 count, std::span<glm::vec2> out) const override;
   /// Whether a square's fine data is resident.
   bool resident(glm::ivec2 square) const;
 
@@ -110,6 +120,8 @@ class World final : public Surface {
   /// True when every wanted square is resident or failing.
   bool settled() const;
   WorldStats stats() const;
+  /// The squares that fail at this moment, row by row from the north-west.
+  std::vector<WorldFailure> failures() const;
 
  private:
   struct Impl;

@@ -18,7 +18,8 @@ struct Scene {
   std::string directory;        ///< Folder of the file, for relative paths; empty for built-in scenes.
 
   // [terrain]
-  std::string generator;        ///< "meadow", or empty when `height_path` is set.
+  // The ground is one of generator, height_path and world_path; the other two are empty.
+  std::string generator;        ///< "meadow".
   uint32_t generator_seed = 1;
   int generator_samples = 1025; ///< Along each side.
   double generator_size_m = 4096;
@@ -28,6 +29,9 @@ struct Scene {
   bool has_no_data = false;
   double no_data = 0;
   glm::dvec3 origin{0.0};
+  std::string world_path;       ///< Folder of a baked world.
+  double world_memory_mb = 512; ///< WorldOptions::memory_bytes, in 2^20 bytes.
+  float world_worth_px = 0.5f;  ///< WorldOptions::worth_px.
   ReliefOptions relief;
   uint32_t max_triangles = 20000;
   float target_px = 0;
@@ -40,6 +44,7 @@ struct Scene {
   float haze_distance_m = 12000;
   glm::dvec3 camera{0.0, 0.0, 1.7};
   bool camera_above_ground = true;                 ///< camera.z counts from the ground.
+  bool camera_from_middle = false;                 ///< camera.x, y count from the middle of the ground.
   double camera_yaw = 0, camera_pitch = 0, fov_y = 0.8726646;  ///< Radians.
 
   // [[layer]] with [[layer.species]]
