@@ -36,8 +36,6 @@ Expected<std::vector<LatticeBox>> SceneFrame::stream(const View& view, Streaming
       streaming == Streaming::wait ? stream_->wait(view) : Expected<std::vector<LatticeBox>>(stream_->step(view));
   if (!boxes || boxes->empty()) return boxes;
   for (const LatticeBox& box : *boxes) mesh_.residency_changed(box);
-  // Areas of triangles come from slopes, which have changed where the mesh may not.
-  for (LayerFrame& each : layers_) each.triangles.memory().reset();
   return boxes;
 }
 

@@ -230,15 +230,24 @@ TEST(CoherentFixedLevel, FollowsStaticDataByTheirEpoch) {
   // In the west alone, and told so.
   surface.west = 2;
   const int middle = sward::k_root_side / 2;
-  pair.compare(view, options, {8, {{0, 0}, {middle, sward::k_root_side}}});
-  // Everywhere, two changes at once.
+  const LatticeBox west{{0, 0}, {middle, sward::k_root_side}};
+  const LatticeBox east{{middle, 0}, {2 * sward::k_root_side, sward::k_root_side}};
+  const LatticeBox corner{{0, 0}, {1, 1}};
+  const std::array told{west, east, corner};
+  pair.compare(view, options, {8, {told.data(), 1}});
+  // Both halves, two changes at once; then the eastern alone, though older changes are told, too.
+  surface.west = surface.east = 2.5;
+  pair.compare(view, options, {10, {told.data(), 2}});
+  surface.east = 2.75;
+  pair.compare(view, options, {11, {told.data(), 2}});
+  // Everywhere, more changes than are told.
   surface.west = surface.east = 3;
-  pair.compare(view, options, {10, {{0, 0}, {1, 1}}});
+  pair.compare(view, options, {13, {&corner, 1}});
   // Not known.
   surface.east = 1;
   pair.compare(view, options, {});
   surface.east = 4;
-  pair.compare(view, options, {1, {{0, 0}, {1, 1}}});
+  pair.compare(view, options, {1, {&corner, 1}});
   // What is not told of is not seen.
   surface.west = 9;
   sward::roam::collect_fixed_level(engine.tree(), view, options, {1, {}}, pair.coherent);

@@ -95,7 +95,7 @@ class Memory final : public FixedTrianglesMemory {
   // What the last call was about.
   std::optional<View> view_;
   FixedLevelOptions options_;
-  SurfaceState surface_;
+  uint64_t surface_epoch_ = 0;
   uint64_t contents_ = 0;  // of `out` after it
 
   std::vector<ChunkVisit> visits_;
@@ -140,12 +140,18 @@ void Memory::collect(const RoamTree& tree, const View& view, const FixedLevelOpt
 }
 
 void Memory::forget_changed(const SurfaceState& surface, int level) {
-  const bool known = surface.epoch != 0 && surface_.epoch != 0 && level == options_.level;
-  if (known && surface.epoch == surface_.epoch) return;
-  const bool local = known && surface.epoch == surface_.epoch + 1;
-  for (const KeptChunk& kept : kept_)
-    if (!local || meet(kept.chunk->box, surface.changed)) kept.chunk->has_static = kept.chunk->has_drawn = false;
-  surface_ = surface;
+  const bool known = surface.epoch != 0 && surface_epoch_ != 0 && level == options_.level;
+  if (known && surface.epoch == surface_epoch_) return;
+  // Of another surface's epochs the difference is huge.
+  const uint64_t epochs = surface.epoch - surface_epoch_;
+  const bool local = known && epochs <= surface.changed.size();
+  const auto changed = local ? surface.changed.last(size_t(epochs)) : surface.changed;
+  for (const KeptChunk& kept : kept_) {
+    Chunk& chunk = *kept.chunk;
+    const auto meets = [&](const LatticeBox& box) { return meet(chunk.box, box); };
+    if (!local || std::ranges::any_of(changed, meets)) chunk.has_static = chunk.has_drawn = false;
+  }
+  surface_epoch_ = surface.epoch;
 }
 
 // Finds the visits' chunks among those kept, both in the order of their keys. True if they are those of the last call.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <sward/terrain/fixed_triangles.h>
+#include <span>
 
 #include "roam_tree.h"
 
@@ -15,8 +16,9 @@ struct SurfaceState {
   /// Names the data; never the same for two surfaces or meshes of a process, one more after every change. 0: not known,
   /// so everything counts as changed.
   uint64_t epoch = 0;
-  /// Where the data differ from those of epoch - 1. Whoever has seen an older epoch takes everything as changed.
-  LatticeBox changed;
+  /// Where the data of the last epochs differ from those before them, the newest last. Whoever has seen only an older
+  /// epoch than these take everything as changed. Valid during the call.
+  std::span<const LatticeBox> changed;
 };
 
 /// Writes the triangles of options.level that a view sees, on the surface of the tree's leaves, to `out`, whatever it
