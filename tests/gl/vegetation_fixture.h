@@ -74,7 +74,7 @@ class Patch {
     EXPECT_TRUE(field) << field.error().message;
     auto ground = gl::GroundTextures::create(*field, map_);
     EXPECT_TRUE(ground) << ground.error().message;
-    ground_ = std::move(*ground);
+    ground_.emplace(std::move(*ground));
     auto frame = gl::Frame::create(bindings);
     EXPECT_TRUE(frame) << frame.error().message;
     frame_ = std::move(*frame);
@@ -94,11 +94,11 @@ class Patch {
     const auto uploaded = renderer_->upload(seeding_, triangles_, view_);
     EXPECT_TRUE(uploaded) << uploaded.error().message;
   }
-  void classify(GLuint restore_framebuffer = 0) { renderer_->classify(frame_, ground_, restore_framebuffer); }
-  void draw() { renderer_->draw(frame_, ground_); }
+  void classify(GLuint restore_framebuffer = 0) { renderer_->classify(frame_, *ground_, restore_framebuffer); }
+  void draw() { renderer_->draw(frame_, *ground_); }
 
   std::vector<Plant> plants_of_gpu() {
-    auto plants = renderer_->read_back(frame_, ground_, view_, seeding_, 0);
+    auto plants = renderer_->read_back(frame_, *ground_, view_, seeding_, 0);
     EXPECT_TRUE(plants) << plants.error().message;
     return plants ? std::move(*plants) : std::vector<Plant>{};
   }
@@ -109,7 +109,7 @@ class Patch {
   VegetationRenderer& renderer() { return *renderer_; }
   const Seeding& seeding() const { return seeding_; }
   const gl::Frame& frame() const { return frame_; }
-  const gl::GroundTextures& ground() const { return ground_; }
+  const gl::GroundTextures& ground() const { return *ground_; }
   const Layer& layer() const { return layer_; }
 
   gl::Lighting lighting;
@@ -142,7 +142,7 @@ class Patch {
   FixedTriangles triangles_;
   Seeding seeding_;
   gl::Frame frame_;
-  gl::GroundTextures ground_;
+  std::optional<gl::GroundTextures> ground_;
   std::unique_ptr<VegetationRenderer> renderer_;
 };
 

@@ -25,7 +25,7 @@ struct RoamMesh::Impl {
   roam::RoamEngine engine;
   uint64_t revision = first_revision();
   uint64_t surface_epoch = revision;        // one more for every change of the surface's static data
-  std::vector<LatticeBox> surface_changes;  // where the last of them were
+  std::vector<LatticeBox> surface_changes = {};  // where the last of them were
 
   void data_changed(const LatticeBox& box) {
     constexpr size_t k_kept = 16;
