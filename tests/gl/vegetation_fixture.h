@@ -7,6 +7,7 @@
 #include <sward/vegetation/vegetation_renderer.h>
 
 #include <numbers>
+#include <optional>
 
 #include "gl/gl_fixture.h"
 #include "unit/plant_fixtures.h"
