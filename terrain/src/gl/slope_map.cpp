@@ -72,9 +72,11 @@ struct SlopeMap::Impl {
     const glm::ivec2 size = tiles.texels();
     const int levels = std::bit_width(unsigned(std::max(size.x, size.y)));
     texture = create_texture(GL_TEXTURE_2D_ARRAY);
-    glTextureStorage3D(texture.id(), tiles.windowed() ? k_window_levels : levels, GL_RG16F, size.x, size.y,
-                       tiles.layers());
+    const int held = tiles.windowed() ? k_window_levels : levels;
+    glTextureStorage3D(texture.id(), held, GL_RG16F, size.x, size.y, tiles.layers());
     set_trilinear(texture.id());
+    // Filters read a little beyond what is written: level ground instead of whatever the memory held.
+    for (int level = 0; level < held; ++level) glClearTexImage(texture.id(), level, GL_RG, GL_FLOAT, nullptr);
     if (!tiles.windowed()) return;
     glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_REPEAT);
     glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_T, GL_REPEAT);
