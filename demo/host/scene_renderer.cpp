@@ -56,7 +56,7 @@ struct SceneRenderer::Impl {
   SceneFrame cpu;
   Programs programs;
   GpuTimer terrain_timer, classify_timer, grow_timer;
-  bool vegetation_on = true, sky_on = true;
+  bool vegetation_on = true, sky_on = true, rasterised = true;
   Streaming streaming = Streaming::live;
   float sun_azimuth = 0;  // of the last frame
 
@@ -92,9 +92,11 @@ Expected<void> SceneRenderer::Impl::draw_vegetation(const View& view, GLuint fra
   classify_timer.begin();
   for (VegetationRenderer& layer : programs.vegetation) layer.classify(frame, ground, framebuffer);
   classify_timer.end();
+  if (!rasterised) glEnable(GL_RASTERIZER_DISCARD);
   grow_timer.begin();
   for (VegetationRenderer& layer : programs.vegetation) layer.draw(frame, ground);
   grow_timer.end();
+  if (!rasterised) glDisable(GL_RASTERIZER_DISCARD);
   return {};
 }
 
@@ -175,6 +177,10 @@ void SceneRenderer::set_streaming(Streaming streaming) {
 
 void SceneRenderer::set_vegetation(bool enabled) {
   impl_->vegetation_on = enabled;
+}
+
+void SceneRenderer::set_rasterisation(bool enabled) {
+  impl_->rasterised = enabled;
 }
 
 void SceneRenderer::set_sky(bool enabled) {

@@ -52,6 +52,8 @@ class SceneRenderer {
   void set_streaming(Streaming streaming);
   /// Without vegetation when false (the paper's figure 7 needs both).
   void set_vegetation(bool enabled);
+  /// Whether plants are rasterised; when false their growth ends before it (the paper's figure 9).
+  void set_rasterisation(bool enabled);
   /// Without the sky when false, for hosts that have their own.
   void set_sky(bool enabled);
   /// Replaces a layer's species and rules. On an error (the layer does not validate) nothing changes.

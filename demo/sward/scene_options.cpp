@@ -146,6 +146,17 @@ void add_sun_option(CLI::App& app, SceneOptions& options) {
       ->check(as_check([](const std::string& text) { return parse_numbers(text, 2, 2); }));
 }
 
+void add_shaders_option(CLI::App& app, SceneOptions& options) {
+  app.add_option("--shaders", options.shaders, "Folder whose files replace shaders of the same name")->type_name("DIR");
+}
+
+Expected<gl::ShaderLibrary> make_shaders(const SceneOptions& options) {
+  std::error_code ignored;
+  if (!options.shaders.empty() && !std::filesystem::is_directory(options.shaders, ignored))
+    return fail(options.shaders + ": there is no such folder of shaders");
+  return gl::ShaderLibrary(options.shaders);
+}
+
 Expected<Scene> make_scene(const SceneOptions& options) {
   auto scene = read_scene(options.scene);
   if (!scene) return scene;

@@ -25,6 +25,7 @@ struct SceneOptions {
   std::string sun;     ///< "azimuth,elevation"; empty: the scene's.
   std::string detail;  ///< "on" or "off".
   bool detail_given = false;
+  std::string shaders;  ///< Folder of shader files that replace those built in; empty: none.
 };
 
 void add_scene_options(CLI::App& app, SceneOptions& options, bool detail_by_default);
@@ -32,6 +33,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options, bool detail_by_defa
 void add_wait_option(CLI::App& app, bool& wait);
 void add_camera_option(CLI::App& app, SceneOptions& options);
 void add_sun_option(CLI::App& app, SceneOptions& options);
+void add_shaders_option(CLI::App& app, SceneOptions& options);
 
 /// Reads the scene and lays the options over it.
 Expected<Scene> make_scene(const SceneOptions& options);
@@ -39,6 +41,8 @@ Expected<Scene> make_scene(const SceneOptions& options);
 Expected<void> check_wait(const Scene& scene, bool wait);
 /// Loads, generates or opens its terrain, with progress on a terminal.
 Expected<std::unique_ptr<host::SceneTerrain>> make_terrain(const Scene& scene, const SceneOptions& options);
+/// The shaders built in, below those of --shaders. Fails where that is no folder.
+Expected<gl::ShaderLibrary> make_shaders(const SceneOptions& options);
 /// A clear day with the scene's sun and haze.
 gl::Lighting make_lighting(const Scene& scene);
 

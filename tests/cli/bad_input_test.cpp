@@ -54,6 +54,7 @@ const BadInput k_cases[] = {
     {"FlyMoreSamplesThanThereAre", "fly SCENE --samples 4096 --csv a.csv", 1, "maximum"},
     {"TimeNaN", "render SCENE --time nan -o a.ppm", 1, "--time"},
     {"SunAboveTheZenith", "render SCENE --sun 0,91 -o a.ppm", 1, "--sun"},
+    {"NoSuchShaders", "render SCENE --shaders nowhere -o a.ppm", 1, "nowhere: there is no such folder of shaders"},
     {"BudgetBelowTheRoots", "mesh SCENE --triangles 1", 1, "root mesh"},
     {"FrameBeyondTheFlight", "mesh SCENE --fps 1 --at 30 -o a.ply", 1, "frames 0 to 29"},
     {"PlantsBeyondTheFlight", "plants SCENE --fps 1 --at 30 -o a.csv", 1, "frames 0 to 29"},
@@ -110,6 +111,17 @@ TEST_F(CliBadFiles, ScenesNameTheirLine) {
   const cli::Result result = run("render '" + (inputs() / "bad.toml").string() + "' -o a.ppm");
   expect_error(result, 1);
   EXPECT_NE(result.err.find("bad.toml:4"), std::string::npos) << result.err;
+  EXPECT_TRUE(files_in_folder().empty());
+}
+
+TEST_F(CliBadFiles, ReplacedShadersNameTheirLine) {
+  cli::write_file(inputs() / "sky.frag.glsl", "layout(location = 0) out vec4 color;\nvoid main() { color = blue; }\n");
+  const cli::Result result =
+      run("render " + scene() + " --size 16x9 --samples 1 -o a.ppm --shaders '" + inputs().string() + "'");
+  if (result.err.find("EGL") != std::string::npos) GTEST_SKIP() << "no GL context here: " << result.err;
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("sky.frag.glsl"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("blue"), std::string::npos) << result.err;
   EXPECT_TRUE(files_in_folder().empty());
 }
 

@@ -25,6 +25,7 @@ class CliPictures : public cli::CliTest {
   }
   // Low over the field's middle, looking at its plants.
   std::string camera() const { return " --camera 0,0,+1.7,90,-15 "; }
+  void expect_figures_of_the_paper(bool software);
 };
 
 TEST_F(CliPictures, TheSameTwice) {
@@ -82,6 +83,34 @@ TEST_F(CliPictures, StatsAreFlatAndComplete) {
   EXPECT_GT(json["peak_rss_mb"], 1);
 }
 
+// Of a flight of fifteen frames, two seconds apart, in the folder.
+void CliPictures::expect_figures_of_the_paper(bool software) {
+  const auto column = [this](const char* file, const char* name) {
+    const auto rows = cli::read_csv(folder() / file);
+    EXPECT_EQ(rows.size(), 16u) << file;
+    std::vector<double> values;
+    const auto at = size_t(std::find(rows[0].begin(), rows[0].end(), name) - rows[0].begin());
+    EXPECT_LT(at, rows[0].size()) << file << " " << name;
+    for (size_t i = 1; i < rows.size() && at < rows[0].size(); ++i) values.push_back(std::stod(rows[i][at]));
+    return values;
+  };
+  EXPECT_EQ(column("figure7.csv", "second"), column("figure8.csv", "second"));
+  EXPECT_EQ(column("figure7.csv", "second").back(), 28);
+  const auto with = column("figure7.csv", "frame_ms"), without = column("figure7.csv", "without_vegetation_ms");
+  EXPECT_GT(with[7], without[7]) << "many plants are drawn in the middle";
+  const auto submitted = column("figure8.csv", "clusters_submitted"), bare = column("figure8.csv", "clusters_bare"),
+             fertile = column("figure8.csv", "clusters_fertile"),
+             triangles = column("figure8.csv", "plant_triangles_in_hundreds");
+  for (size_t i = 0; i < submitted.size(); ++i) EXPECT_EQ(submitted[i], bare[i] + fertile[i]) << i;
+  EXPECT_GT(fertile[7], 0);
+  EXPECT_GT(triangles[7], 0);
+  EXPECT_EQ(std::filesystem::exists(folder() / "figure9.csv"), !software);
+  if (software) return;
+  for (const char* name :
+       {"clusters_of_1_ms", "clusters_of_2_ms", "clusters_of_4_ms", "clusters_of_8_ms", "clusters_of_16_ms"})
+    EXPECT_GT(column("figure9.csv", name)[7], 0) << name;
+}
+
 TEST_F(CliPictures, FlightsAreMeasured) {
   SWARD_NEEDS_GL();
   const cli::Result result =
@@ -123,6 +152,10 @@ TEST_F(CliPictures, FlightsAreMeasured) {
     EXPECT_EQ(svg.rfind("<svg", 0), 0u) << name;
     EXPECT_NE(svg.find("<polyline"), std::string::npos) << name;
     EXPECT_NE(svg.find("</svg>"), std::string::npos) << name;
+  }
+  expect_figures_of_the_paper(software(json));
+  if (software(json)) {
+    EXPECT_NE(result.err.find("figure 9 is left out"), std::string::npos) << result.err;
   }
 }
 

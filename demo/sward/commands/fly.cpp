@@ -12,6 +12,7 @@
 #include "sward/commands/flight_options.h"
 #include "sward/output/figures.h"
 #include "sward/output/files.h"
+#include "sward/output/paper_figures.h"
 #include "sward/output/plot.h"
 #include "sward/output/progress.h"
 #include "sward/output/video.h"
@@ -58,19 +59,25 @@ struct Flown {
   int samples = 1;
 };
 
+// What one flight along the path is for.
+struct Pass {
+  std::string name = "flying";  // on the progress line
+  bool video = false, plants = false;
+};
+
 // The first frame is drawn once before the clock runs: it builds the mesh from its roots and makes the driver compile,
 // which no later frame does.
 Expected<Flown> fly_frames(const FlyOptions& options, const Scene& scene, const std::vector<host::FlightFrame>& path,
-                           host::RenderTarget& target, host::SceneRenderer& renderer) {
+                           host::RenderTarget& target, host::SceneRenderer& renderer, const Pass& pass) {
   Flown flown{{}, target.size(), target.samples()};
   std::optional<VideoPipe> video;
-  if (!options.video.empty()) {
+  if (pass.video) {
     auto opened = VideoPipe::open(options.video, target.size(), options.path.fps);
     if (!opened) return tl::unexpected(opened.error());
     video.emplace(std::move(*opened));
   }
   const gl::Lighting lighting = make_lighting(scene);
-  ProgressLine progress("flying");
+  ProgressLine progress(pass.name);
   const auto draw = [&](const host::FlightFrame& frame) {
     target.begin();
     auto stats = renderer.draw(frame.view, lighting, frame.time_s, target.framebuffer(), target.samples(), true);
@@ -83,7 +90,7 @@ Expected<Flown> fly_frames(const FlyOptions& options, const Scene& scene, const 
     auto stats = draw(frame);
     const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - begin;
     if (!stats) return tl::unexpected(stats.error());
-    const size_t plants = options.no_plants ? 0 : renderer.plants_cpu(frame.view).size();
+    const size_t plants = pass.plants ? renderer.plants_cpu(frame.view).size() : 0;
     flown.frames.push_back(make_figures(*stats, frame.time_s, spent.count(), plants));
     if (video)
       if (auto written = video->write(target.read_rgb()); !written) return tl::unexpected(written.error());
@@ -92,6 +99,36 @@ Expected<Flown> fly_frames(const FlyOptions& options, const Scene& scene, const 
   if (video)
     if (auto finished = video->finish(); !finished) return tl::unexpected(finished.error());
   return flown;
+}
+
+// The further runs behind the paper's figures: without vegetation; with clusters of several sizes, not rasterised.
+Expected<PaperRuns> fly_paper(const FlyOptions& options, const Scene& scene, const std::vector<host::FlightFrame>& path,
+                              host::RenderTarget& target, host::SceneRenderer& renderer,
+                              std::vector<FrameFigures> with) {
+  PaperRuns runs{std::move(with), {}, {}};
+  renderer.set_vegetation(false);
+  auto without = fly_frames(options, scene, path, target, renderer,
+                            {.name = "figure 7, without vegetation", .video = false, .plants = false});
+  if (!without) return tl::unexpected(without.error());
+  runs.without = std::move(without->frames);
+  renderer.set_vegetation(true);
+  if (!host::gpu_can_time()) {
+    std::fprintf(stderr, "sward: warning: this driver cannot time the GPU; figure 9 is left out\n");
+    return runs;
+  }
+  renderer.set_rasterisation(false);
+  for (const int size : {1, 2, 4, 8, 16}) {
+    for (size_t i = 0; i < scene.layers.size(); ++i) {
+      Layer layer = scene.layers[i];
+      layer.cluster_size = size;
+      if (auto set = renderer.set_layer(i, layer); !set) return tl::unexpected(set.error());
+    }
+    auto flown = fly_frames(options, scene, path, target, renderer,
+                            {.name = "figure 9, clusters of " + std::to_string(size), .video = false, .plants = false});
+    if (!flown) return tl::unexpected(flown.error());
+    runs.clusters.push_back({size, std::move(flown->frames)});
+  }
+  return runs;
 }
 
 std::string summary_text(const Flown& flown) {
@@ -118,6 +155,8 @@ Expected<void> fly(FlyOptions options, bool size_given) {
   if (auto checked = check(options); !checked) return checked;
   auto scene = make_scene(options.scene);
   if (!scene) return tl::unexpected(scene.error());
+  auto shaders = make_shaders(options.scene);
+  if (!shaders) return tl::unexpected(shaders.error());
   if (auto checked = check_wait(*scene, options.wait); !checked) return checked;
   auto context = host::EglContext::create(false);
   if (!context) return tl::unexpected(context.error());
@@ -133,12 +172,13 @@ Expected<void> fly(FlyOptions options, bool size_given) {
   if (auto checked = check_viewports(*path, *size); !checked) return checked;
   auto target = host::RenderTarget::create(*size, *samples);
   if (!target) return tl::unexpected(target.error());
-  auto renderer = host::SceneRenderer::create(*scene, **terrain, gl::ShaderLibrary());
+  auto renderer = host::SceneRenderer::create(*scene, **terrain, *shaders);
   if (!renderer) return tl::unexpected(renderer.error());
   renderer->set_vegetation(!options.no_plants);
   if (options.wait) renderer->set_streaming(host::Streaming::wait);
 
-  auto flown = fly_frames(options, *scene, *path, *target, *renderer);
+  const Pass first{.name = "flying", .video = !options.video.empty(), .plants = !options.no_plants};
+  auto flown = fly_frames(options, *scene, *path, *target, *renderer, first);
   if (!flown) return tl::unexpected(flown.error());
   if (!options.csv.empty())
     if (auto written = write_file(options.csv, figures_csv(flown->frames)); !written) return written;
@@ -146,6 +186,11 @@ Expected<void> fly(FlyOptions options, bool size_given) {
     if (auto written = write_file(options.summary, summary_text(*flown)); !written) return written;
   if (!options.plots.empty())
     if (auto written = write_plots(options.plots, flown->frames); !written) return written;
+  if (!options.plots.empty() && options.path.flight == "paper" && !options.no_plants) {
+    auto runs = fly_paper(options, *scene, *path, *target, *renderer, flown->frames);
+    if (!runs) return tl::unexpected(runs.error());
+    if (auto written = write_paper_figures(options.plots, *runs); !written) return written;
+  }
   print_result(*flown);
   return {};
 }
@@ -160,6 +205,7 @@ Command add_fly(CLI::App& parent) {
       "frame is drawn once before the clock runs. plants are counted outside of the clock.");
   add_scene_options(*app, options->scene, true);
   add_sun_option(*app, options->scene);
+  add_shaders_option(*app, options->scene);
   add_path_options(*app, options->path);
   CLI::Option* size = app->add_option("--size", options->path.size, "Pixels")
                           ->type_name("WxH")
@@ -174,7 +220,10 @@ Command add_fly(CLI::App& parent) {
   app->add_option("--csv", options->csv, "One row of figures a frame")->type_name("FILE");
   app->add_option("--summary", options->summary, "Median, mean, p95, p99, max of every figure as JSON")
       ->type_name("FILE");
-  app->add_option("--plots", options->plots, "Folder for line plots (SVG)")->type_name("DIR");
+  app->add_option(
+         "--plots", options->plots,
+         "Folder for line plots (SVG); of the paper flight also its figures 7 to 9, which take six more flights")
+      ->type_name("DIR");
   app->add_option("--video", options->video, "Video through ffmpeg")->type_name("FILE.mp4");
   return {app, [options, size] { return fly(*options, size->count() > 0); }};
 }

@@ -51,6 +51,8 @@ Expected<void> render(const RenderOptions& options) {
   if (auto checked = check_output(options.stats); !checked) return checked;
   auto scene = make_scene(options.scene);
   if (!scene) return tl::unexpected(scene.error());
+  auto shaders = make_shaders(options.scene);
+  if (!shaders) return tl::unexpected(shaders.error());
 
   auto context = host::EglContext::create(false);
   if (!context) return tl::unexpected(context.error());
@@ -59,7 +61,7 @@ Expected<void> render(const RenderOptions& options) {
   auto terrain = make_terrain(*scene, options.scene);
   if (!terrain) return tl::unexpected(terrain.error());
   if (auto loaded = load_squares(*scene, **terrain, *size); !loaded) return loaded;
-  auto renderer = host::SceneRenderer::create(*scene, **terrain, gl::ShaderLibrary());
+  auto renderer = host::SceneRenderer::create(*scene, **terrain, *shaders);
   if (!renderer) return tl::unexpected(renderer.error());
   renderer->set_vegetation(!options.no_plants);
   renderer->set_streaming(host::Streaming::wait);
@@ -86,6 +88,7 @@ Command add_render(CLI::App& parent) {
   add_scene_options(*app, options->scene, true);
   add_camera_option(*app, options->scene);
   add_sun_option(*app, options->scene);
+  add_shaders_option(*app, options->scene);
   app->add_option("--size", options->size, "Pixels")
       ->type_name("WxH")
       ->check(as_check(parse_size))

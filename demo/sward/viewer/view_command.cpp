@@ -26,7 +26,7 @@ constexpr int k_many_samples = 32;  // GLFW takes the nearest that the display h
 
 struct ViewOptions {
   SceneOptions scene;
-  std::string size = "1280x720", samples = "4", shaders;
+  std::string size = "1280x720", samples = "4";
   std::optional<int> frames;
 };
 
@@ -112,7 +112,7 @@ Expected<void> run_window(Window& window, const ViewOptions& options, const Scen
     const double seconds = std::chrono::duration<double>(now - last).count();
     last = now;
     window.begin_frame();
-    if (window.pressed_once(GLFW_KEY_F5)) reload(options.shaders, renderer, state);
+    if (window.pressed_once(GLFW_KEY_F5)) reload(options.scene.shaders, renderer, state);
     if (window.pressed_once(GLFW_KEY_F) && !ImGui::GetIO().WantCaptureKeyboard) camera.walking = !camera.walking;
     camera.move(window.camera_input(), std::min(seconds, 0.1), terrain.surface());
     draw_panel(state, camera, stats, seconds * 1000);
@@ -137,11 +137,10 @@ Expected<void> view(const ViewOptions& options) {
   auto samples = parse_samples(options.samples);
   if (auto checked = check_size(*size); !checked) return checked;
   if (*samples < 0) return fail("--samples must be 1 or more, or max");
-  std::error_code ignored;
-  if (!options.shaders.empty() && !std::filesystem::is_directory(options.shaders, ignored))
-    return fail(options.shaders + ": there is no such folder of shaders");
   auto scene = make_scene(options.scene);
   if (!scene) return tl::unexpected(scene.error());
+  auto shaders = make_shaders(options.scene);
+  if (!shaders) return tl::unexpected(shaders.error());
   auto window = Window::open("sward - " + scene->name, *size, *samples == 0 ? k_many_samples : *samples);
   if (!window) return tl::unexpected(window.error());
   GLint most = 0;
@@ -150,7 +149,7 @@ Expected<void> view(const ViewOptions& options) {
     return fail("--samples " + std::to_string(*samples) + ": this device has at most " + std::to_string(most));
   auto terrain = make_terrain(*scene, options.scene);
   if (!terrain) return tl::unexpected(terrain.error());
-  auto renderer = host::SceneRenderer::create(*scene, **terrain, gl::ShaderLibrary(options.shaders));
+  auto renderer = host::SceneRenderer::create(*scene, **terrain, *shaders);
   if (!renderer) return tl::unexpected(renderer.error());
   return run_window(*window, options, *scene, **terrain, *renderer);
 }
@@ -163,6 +162,7 @@ Command add_view(CLI::App& parent) {
   add_scene_options(*app, options->scene, true);
   add_camera_option(*app, options->scene);
   add_sun_option(*app, options->scene);
+  add_shaders_option(*app, options->scene);
   app->add_option("--size", options->size, "Pixels")
       ->type_name("WxH")
       ->check(as_check(parse_size))
@@ -171,7 +171,6 @@ Command add_view(CLI::App& parent) {
       ->type_name("N|max")
       ->check(as_check(parse_samples))
       ->capture_default_str();
-  app->add_option("--shaders", options->shaders, "Folder that F5 reloads shaders from")->type_name("DIR");
   app->add_option("--frames", options->frames, "Close after so many frames")->type_name("N");
   return {app, [options] { return view(*options); }};
 }
