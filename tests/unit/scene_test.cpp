@@ -412,7 +412,8 @@ TEST(Scene, Contradictions) {
   expect_error(with_added(12, "height_m = [1, 2]"), 13, "height_m has no effect where nothing grows");
   expect_error(with_added(9, "forbids = true"), 10, "forbids has no effect on what grows");
   expect_error(with_added(6, "ceiling = 5"), 7, "ceiling has no effect under law = \"distance\"");
-  expect_error(with_added(6, "law = \"screen_area\"\nfull_distance_m = 5"), 8, "full_distance_m has no effect");
+  expect_error(with_added(6, "law = \"screen_area\"\nplain = true\nfull_distance_m = 5"), 9,
+               "full_distance_m has no effect");
   expect_error(with_added(6, "law = \"world_area\"\nfalloff = 2"), 8, "falloff has no effect");
   expect_error(with_added(6, "shadows = false\nshadow_distance_m = 2"), 8, "shadow_distance_m has no effect");
   expect_error("[terrain]\ngenerator = \"meadow\"\n[[layer]]\nname = \"bare\"\n", 3, "layer \"bare\" has no species");

@@ -59,6 +59,7 @@ TEST(DistanceLaw, ZoomScalesFullDistanceAndHorizon) {
 TEST(ScreenLaw, IsEquation1) {
   Layer layer = law_layer(DensityLaw::screen_area, 50000.0f);
   layer.ceiling = 1000;
+  layer.plain = true;
   const View view = test::view_at({0, 0, 0});
   FixedTriangle t = triangle_at(1.6f, 10.0f);
   t.screen_area = 0.001f;
@@ -78,6 +79,7 @@ TEST(ScreenLaw, IsEquation1) {
 TEST(WorldLaw, IsEquation2WithItsSignMended) {
   Layer layer = law_layer(DensityLaw::world_area, 5000.0f);
   layer.ceiling = 1000;
+  layer.plain = true;
   // Area 4.5 in the plane z = 0, centre (1, 1, 0).
   FixedTriangle t = triangle_at(4.5f, 1.0f);
   t.to_left = {3, 0, 0};
@@ -88,6 +90,23 @@ TEST(WorldLaw, IsEquation2WithItsSignMended) {
   EXPECT_NEAR(seed_limit(layer, test::view_at({1, 16, 15}), t), 100.0f / 2.0f * std::sqrt(0.5f), 1e-3f);
   EXPECT_EQ(seed_limit(layer, test::view_at({1, 1, -15}), t), 0.0f);
   EXPECT_EQ(seed_limit(layer, test::view_at({1, 1, 0.01}), t), 1000.0f);
+}
+
+// Outside of plain layers, too, they are the equations where the ground is far and faces the eye.
+TEST(LawsOfArea, AreSteadyNearAndTheEquationsFarAway) {
+  Layer layer = law_layer(DensityLaw::world_area, 5000.0f);
+  FixedTriangle t = triangle_at(4.5f, 1.0f);
+  t.to_left = {3, 0, 0};
+  t.to_right = {0, 3, 0};
+  const float facing = 0.5f * (1.0f + std::sqrt(1.25f)), edge = 0.25f;
+  EXPECT_NEAR(seed_limit(layer, test::view_at({1, 1, 15}), t), 100.0f * facing, 1e-3f);
+  EXPECT_NEAR(seed_limit(layer, test::view_at({1, 1, 0.01}), t), 225.0f * facing, 1e-2f);
+  EXPECT_NEAR(seed_limit(layer, test::view_at({16, 1, 0}), t), 100.0f * edge, 1e-3f);
+  EXPECT_LT(seed_limit(layer, test::view_at({1, 1, -15}), t), 6.0f);
+  layer.law = DensityLaw::screen_area;
+  const View view = test::view_at({1, 1, 15});
+  const double focal = view.clip_from_eye[1][1];
+  EXPECT_NEAR(seed_limit(layer, view, t), 100.0 * focal * focal * double(facing), 1e-2);
 }
 
 TEST(Bins, EdgesAreGeometricAndEndAtTheLargestCount) {

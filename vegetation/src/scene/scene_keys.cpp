@@ -174,8 +174,9 @@ Expected<void> check_layer(const toml::table& table, const Layer& layer, const C
   if (layer.law == DensityLaw::distance) {
     const std::string because = "under law = \"distance\", expected only with screen_area or world_area";
     if (auto fits = refuse(table, {"ceiling"}, because, context); !fits) return fits;
-  } else {
-    const std::string because = "under this law, expected only with law = \"distance\"";
+  } else if (layer.plain) {
+    const std::string because =
+        "under this law in a plain layer, expected only with law = \"distance\" or plain = false";
     if (auto fits = refuse(table, {"full_distance_m"}, because, context); !fits) return fits;
   }
   if (layer.law == DensityLaw::world_area) {

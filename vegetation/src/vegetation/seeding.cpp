@@ -30,15 +30,47 @@ float screen_law(const Layer& layer, float screen_area) {
   return std::min(layer.density * std::pow(screen_area, layer.falloff), float(layer.ceiling));
 }
 
-/// Area times normal is half the cross product; -n . v is positive for ground that is seen.
-float world_law(const Layer& layer, const View& view, const FixedTriangle& triangle) {
+/// A triangle's area, its direction from the eye, and the cosine between that and its normal; positive for ground that
+/// is seen.
+struct Seen {
+  double area, distance, facing;
+};
+
+/// Area times normal is half the cross product.
+Seen seen_from(const View& view, const FixedTriangle& triangle) {
   const glm::dvec3 to_left(triangle.to_left), to_right(triangle.to_right);
   const glm::dvec3 v = triangle.apex - view.eye + (to_left + to_right) / 3.0;
-  const double facing = -0.5 * glm::dot(glm::cross(to_left, to_right), v);
-  if (facing <= 0.0) return 0.0f;
-  const double distance = glm::length(v);
-  const double seeds = double(layer.density) * facing / (distance * distance * distance);
-  return float(std::min(seeds, double(layer.ceiling)));
+  const glm::dvec3 normal = 0.5 * glm::cross(to_left, to_right);
+  const double area = glm::length(normal), distance = glm::length(v);
+  return {area, distance, -glm::dot(normal, v) / (area * distance)};
+}
+
+/// Equation 2 without its density, as it is.
+double plain_area(const Seen& seen) {
+  return std::max(seen.facing, 0.0) * seen.area / (seen.distance * seen.distance);
+}
+
+/// The same for counts that change slowly. Plants come and go by rank as a triangle's count changes, and the nearer
+/// they are, the more pixels that is; so near by the count stays what it is at a distance. Ground that is seen from its
+/// edge shows its plants nevertheless, since they stand upright; so the cosine falls to 0 smoothly, beyond the edge.
+double steady_area(const Layer& layer, float zoom, const Seen& seen) {
+  const double distance = std::max(seen.distance, 2.0 * double(layer.full_distance_m * zoom));
+  const double facing = 0.5 * (seen.facing + std::sqrt(seen.facing * seen.facing + 0.25));
+  return facing * seen.area / (distance * distance);
+}
+
+/// Equation 1 grows towards the borders of the picture, so that turning the head would change plants: outside of plain
+/// layers the area counts as it is in the picture's middle.
+float screen_count(const Layer& layer, const View& view, float zoom, const FixedTriangle& triangle) {
+  if (layer.plain) return screen_law(layer, triangle.screen_area);
+  const double focal = view.clip_from_eye[1][1];
+  return screen_law(layer, float(focal * focal * steady_area(layer, zoom, seen_from(view, triangle))));
+}
+
+float world_count(const Layer& layer, const View& view, float zoom, const FixedTriangle& triangle) {
+  const Seen seen = seen_from(view, triangle);
+  const double area = layer.plain ? plain_area(seen) : steady_area(layer, zoom, seen);
+  return float(std::min(double(layer.density) * area, double(layer.ceiling)));
 }
 
 float limit_at(const Layer& layer, const View& view, float zoom, const FixedTriangle& triangle, float distance) {
@@ -47,9 +79,9 @@ float limit_at(const Layer& layer, const View& view, float zoom, const FixedTria
     case DensityLaw::distance:
       return distance_law(layer, zoom, triangle.area, distance);
     case DensityLaw::screen_area:
-      return screen_law(layer, triangle.screen_area);
+      return screen_count(layer, view, zoom, triangle);
     case DensityLaw::world_area:
-      return world_law(layer, view, triangle);
+      return world_count(layer, view, zoom, triangle);
   }
   return 0.0f;
 }
@@ -88,12 +120,11 @@ float nearest_seed(const FixedTriangles& triangles, size_t i) {
   return triangles.surface()[i] == 0 ? distance : std::max(distance - surface_deviation(triangles, i), 0.0f);
 }
 
-/// limit_at() of triangle i for its nearest seed. The first two laws read three columns, so nothing is gathered.
+/// limit_at() of triangle i for its nearest seed. The law of distance reads three columns, so nothing is gathered.
 float limit_of(const Layer& layer, const View& view, float zoom, const FixedTriangles& triangles, size_t i) {
   const float distance = nearest_seed(triangles, i);
   if (!(distance <= layer.horizon_m * zoom)) return 0.0f;
   if (layer.law == DensityLaw::distance) return distance_law(layer, zoom, triangles.area()[i], distance);
-  if (layer.law == DensityLaw::screen_area) return screen_law(layer, triangles.screen_area()[i]);
   return limit_at(layer, view, zoom, triangles[i], distance);
 }
 

@@ -58,8 +58,10 @@ struct Seeding {
 ///   distance     A density                       to d0, then A density (d0 / d)^falloff
 ///   screen_area  min(density S^falloff, ceiling) S the projected area; the ceiling behind the near plane
 ///   world_area   min(density W (-n . v) / (|v|^2 |v|), ceiling)  W, n: area and normal of the drawn triangle, v from
-///   the
-///                eye to its centre; 0 where it faces away
+///                the eye to its centre; 0 where it faces away
+/// These two are equations 1 and 2 in plain layers. In others |v| counts as 2 d0 at least, the cosine -n . v / |v| = c as
+/// (c + sqrt(c^2 + 1/4)) / 2, and screen_area takes for S what the second law has, times the squared focal length: the
+/// projected area in the picture's middle, which does not change when the head turns.
 float seed_limit(const Layer& layer, const View& view, const FixedTriangle& triangle);
 
 /// Upper edges of the 32 geometric bins between n_min (>= 1) and n_max (>= n_min), smallest first:

@@ -67,7 +67,8 @@ struct Layer {
   DensityLaw law = DensityLaw::distance;
   float density = 500.0f;          ///< rho0: plants a square metre (distance); plants a unit of screen area (screen_area,
                                    ///< world_area). > 0.
-  float full_distance_m = 5.0f;    ///< d0 of the distance law. > 0.
+  float full_distance_m = 5.0f;    ///< d0 of the distance law; the others, unless plain, count what is nearer than
+                                   ///< twice this as being there. > 0.
   float falloff = 1.0f;            ///< gamma of the distance law; roll-off exponent on the area of screen_area. > 0.
   int ceiling = 4096;              ///< n_max of equations 1 and 2: most plants a triangle. >= 1.
   bool plain = false;              ///< The paper's behaviour: no growing-in, no widening, no sinking.
