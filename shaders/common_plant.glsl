@@ -10,6 +10,7 @@ struct PlantTraits {
   float age;                       // 0 fresh .. 1 old
   float lean;                      // of the root, radians
   float phase;                     // 0..1, for what moves
+  uint state;                      // of the sequence, from which a kind draws its own numbers (common_kinds.glsl)
 };
 
 SWARD_FN PlantTraits make_traits(SpeciesParams species, LayerParams layer, uvec2 id, uint rank, float score) {
@@ -46,6 +47,7 @@ SWARD_FN PlantTraits make_traits(SpeciesParams species, LayerParams layer, uvec2
   t.age = age;
   t.lean = u_lean * species.posture.z;
   t.phase = u_phase;
+  t.state = state;
   return t;
 }
 

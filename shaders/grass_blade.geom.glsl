@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 
-// Growth of grass: a line segment becomes a piece of the blade's strip; the second invocation lays its shadow on the
-// ground's plane (Papavasiliou 2015, sections 2.3 and 3.6).
+// Growth of grass, and of all that is made of shoots: a line segment becomes a piece of the blade's strip; the second
+// invocation lays its shadow on the ground's plane (Papavasiliou 2015, sections 2.3 and 3.6).
 #include "common_frame.glsl"
 #include "common_layer.glsl"
 #include "common_visible.glsl"
@@ -15,21 +15,19 @@ layout(location = 1) in vec4 line_tangent[];  // unit; half width
 layout(location = 2) in vec4 line_plane[];    // of the ground: unit normal; offset
 layout(location = 3) in vec4 line_color[];    // ground at the root; age
 layout(location = 4) in vec4 line_map[];      // base map coordinates below the eye; azimuth; phase
-layout(location = 5) in vec2 line_fade[];     // melting into the ground; distance
+layout(location = 5) in vec4 line_fade[];     // melting into the ground; distance; share of the width that its edge
+                                              // shows, 1: round; which of the plant's shoots
 
 layout(location = 0) out vec4 strip_point;        // relative to the eye; arc length
 layout(location = 1) out vec4 strip_normal;       // towards the viewer, rounded; -1..1 across
 layout(location = 2) out vec2 strip_cover;        // share of the strip that the plant covers; height above the ground
 layout(location = 3) flat out vec4 strip_color;   // ground at the root; age
 layout(location = 4) flat out vec4 strip_ground;  // normal; melting
-layout(location = 5) flat out vec4 strip_self;    // base map coordinates below the eye; phase; shadow's strength or -1
+layout(location = 5) flat out vec4 strip_self;    // base map coordinates below the eye; phase; shadow's strength, or
+                                                  // -1 - shoot
 
 // Thinner than this on screen, pixels, a strip is drawn this wide with less coverage.
 const float k_least_half_width_px = 0.6;
-// A blade seen from its edge shows at least this share of its width: blades are not flat.
-const float k_edge_share = 0.35;
-// Shadows lie this much of their distance before the ground, so that depth tells them apart.
-const float k_shadow_lift = 0.0012;
 
 float least_half_width(float distance) { return k_least_half_width_px * distance / frame.focal.y; }
 
@@ -46,6 +44,7 @@ struct Plant {
   vec3 flat_side;    // unit, level, across the bending plane
   vec3 plane;        // the ground's normal
   float offset;
+  float edge_share;  // least share of the width that is seen: blades are not flat
   float shadow;      // strength; negative: this is the blade itself
 };
 
@@ -80,7 +79,8 @@ void emit_strip(Plant plant, Section first, Section second, float roundness) {
   EndPrimitive();
 }
 
-Section blade_section(int i, vec3 flat_side) {
+Section blade_section(int i, Plant plant) {
+  vec3 flat_side = plant.flat_side;
   vec3 point = line_point[i].xyz;
   vec3 tangent = line_tangent[i].xyz;
   float distance = max(length(point), 1.0e-3);
@@ -88,25 +88,14 @@ Section blade_section(int i, vec3 flat_side) {
   // Across the blade as the viewer sees it: never edge-on.
   vec3 across = cross(tangent, to_eye);
   vec3 side = normalize(across * (dot(across, flat_side) < 0.0 ? -1.0 : 1.0) + 0.1 * flat_side);
-  float seen = line_tangent[i].w * max(abs(dot(side, flat_side)), k_edge_share);
+  float seen = line_tangent[i].w * max(abs(dot(side, flat_side)), plant.edge_share);
   float drawn = max(seen, least_half_width(distance));
   vec3 normal = cross(flat_side, tangent);
   return Section(point, side * drawn, seen / drawn, dot(normal, to_eye) < 0.0 ? -normal : normal);
 }
 
 void emit_blade(Plant plant) {
-  emit_strip(plant, blade_section(0, plant.flat_side), blade_section(1, plant.flat_side), 0.5);
-}
-
-// Where the light through a point above the plane meets it, as a matrix for directions. Low suns are cut to the longest
-// shadow.
-mat3 shadow_projection(vec3 plane) {
-  vec3 sun = frame.sun_direction.xyz;
-  float facing = dot(plane, sun);
-  vec3 level = sun - plane * facing;
-  float reach = min(length(level) / facing, k_longest_shadow);
-  vec3 slide = reach * level / max(length(level), 1.0e-4);
-  return mat3(1.0) - outerProduct(plane + slide, plane);
+  emit_strip(plant, blade_section(0, plant), blade_section(1, plant), 0.5 + 0.6 * (plant.edge_share - 0.35));
 }
 
 void emit_shadow(Plant plant) {
@@ -121,7 +110,7 @@ void emit_shadow(Plant plant) {
   Section sections[2];
   for (int i = 0; i < 2; ++i) {
     float distance = max(length(ends[i]), 1.0e-3);
-    float thrown = line_tangent[i].w * max(caster, k_edge_share);
+    float thrown = line_tangent[i].w * max(caster, plant.edge_share);
     float drawn = max(thrown, least_half_width(distance));
     float lift = 1.0 - k_shadow_lift;
     sections[i] = Section(ends[i] * lift, across * drawn * lift, thrown / drawn, plant.plane);
@@ -131,7 +120,8 @@ void emit_shadow(Plant plant) {
 
 void main() {
   float azimuth = line_map[0].z;
-  Plant plant = Plant(vec3(-sin(azimuth), cos(azimuth), 0.0), line_plane[0].xyz, line_plane[0].w, -1.0);
+  Plant plant = Plant(vec3(-sin(azimuth), cos(azimuth), 0.0), line_plane[0].xyz, line_plane[0].w, line_fade[0].z,
+                      -1.0 - line_fade[0].w);
   if (gl_InvocationID == 0) {
     emit_blade(plant);
     return;

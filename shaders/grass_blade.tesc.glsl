@@ -5,7 +5,7 @@
 #include "common_grow.glsl"
 #include "common_blade.glsl"
 #include "common_ground.glsl"
-#include "common_visible.glsl"
+#include "common_worth.glsl"
 
 layout(vertices = SWARD_CLUSTER_SIZE) out;
 
@@ -20,9 +20,6 @@ layout(location = 5) patch out uint blade_slots[(SWARD_CLUSTER_SIZE + 3) / 4];  
 
 layout(binding = SWARD_BINDING_BASE_MAP) uniform sampler2D sward_base_map;
 
-// Below this height, pixels, a plant is left to the ground's own colour.
-const float k_least_height_px = 0.3;
-
 void write_blade(Seedling s) {
   vec2 azimuth = vec2(cos(s.traits.azimuth), sin(s.traits.azimuth));
   float slope = -dot(s.ground_normal.xy, azimuth) / s.ground_normal.z;
@@ -34,14 +31,6 @@ void write_blade(Seedling s) {
   blade_ground[gl_InvocationID] = vec4(s.ground_normal.xy, s.map_uv);
   blade_color[gl_InvocationID] = vec4(color, s.traits.age);
   blade_self[gl_InvocationID] = vec4(find_contact(curve), s.traits.phase, s.distance, 0.0);
-}
-
-// Whether a plant of this height could be seen at all: asked before the ground is.
-bool worth_growing(Seedling s, float height) {
-  if (s.presence.fade <= 0.0) return false;
-  height *= s.presence.fade;
-  if (height * frame.focal.y < k_least_height_px * s.distance) return false;
-  return sphere_visible(s.root, height * (1.0 + shadow_reach(sward_layer.layer, s.distance)));
 }
 
 void grow_line() {

@@ -19,7 +19,11 @@ layout(location = 1) out vec4 line_tangent;  // unit; half width
 layout(location = 2) out vec4 line_plane;    // of the ground: unit normal; offset
 layout(location = 3) out vec4 line_color;    // ground at the root; age
 layout(location = 4) out vec4 line_map;      // base map coordinates below the eye; azimuth; phase
-layout(location = 5) out vec2 line_fade;     // melting into the ground; distance of the root
+layout(location = 5) out vec4 line_fade;     // melting into the ground; distance of the root; share of the width that
+                                             // its edge shows; which of the plant's shoots
+
+// A blade seen from its edge shows at least this share of its width.
+const float k_edge_share = 0.35;
 
 // A blade's outline: broad at the base, pointed.
 float outline(float s) { return 1.0 - s * s * (0.55 + 0.45 * s); }
@@ -46,5 +50,5 @@ void main() {
   vec2 uv_per_m = sward_layer.layer.map.xy / sward_layer.layer.map.zw;
   line_map = vec4(ground.zw - root.xy * uv_per_m, form.z, blade_self[i].y);
   float distance = blade_self[i].z;
-  line_fade = vec2(smoothstep(0.02, 0.6, distance / sward_layer.layer.reach.x), distance);
+  line_fade = vec4(smoothstep(0.02, 0.6, distance / sward_layer.layer.reach.x), distance, k_edge_share, 0.0);
 }

@@ -4,6 +4,9 @@
 #include "host/scene_renderer.h"
 
 #include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <string_view>
 
@@ -24,6 +27,25 @@ struct Programs {
   Sky sky;
   std::vector<VegetationRenderer> vegetation;
 };
+
+// The library with the functions of the layers' own kinds, as their files are now. A name that is no file is left to
+// the library.
+Expected<gl::ShaderLibrary> with_kinds(gl::ShaderLibrary shaders, const std::vector<Layer>& layers,
+                                       const std::string& directory) {
+  for (const Layer& layer : layers) {
+    for (const Species& species : layer.species) {
+      if (species.kind != PlantKind::custom) continue;
+      const std::filesystem::path path = std::filesystem::path(directory) / species.custom.functions;
+      std::error_code ignored;
+      if (!std::filesystem::is_regular_file(path, ignored)) continue;
+      std::ifstream stream(path, std::ios::binary);
+      std::string text{std::istreambuf_iterator<char>(stream), {}};
+      if (!stream.is_open() || stream.bad()) return fail("functions \"" + path.string() + "\" cannot be read");
+      shaders.add_source(species.custom.functions, std::move(text));
+    }
+  }
+  return shaders;
+}
 
 Expected<Programs> build_programs(const std::vector<Layer>& layers, const gl::ShaderLibrary& shaders,
                                   const gl::Bindings& bindings) {
@@ -48,6 +70,7 @@ bool gpu_can_time() {
 
 struct SceneRenderer::Impl {
   const SceneTerrain& terrain;
+  std::string directory;  // of the scene, for its kinds of plants
   gl::ShaderLibrary shaders;
   gl::Bindings bindings;
   std::vector<Layer> layers;
@@ -131,12 +154,15 @@ Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTer
   if (!frame) return tl::unexpected(frame.error());
   auto ground = terrain.make_textures();
   if (!ground) return tl::unexpected(ground.error());
-  auto programs = build_programs(scene.layers, shaders, bindings);
+  auto library = with_kinds(shaders, scene.layers, scene.directory);
+  if (!library) return tl::unexpected(library.error());
+  auto programs = build_programs(scene.layers, *library, bindings);
   if (!programs) return tl::unexpected(programs.error());
   const bool timed = gpu_can_time();
-  return SceneRenderer(std::unique_ptr<Impl>(new Impl{terrain, shaders, bindings, scene.layers, std::move(*frame),
-                                                      std::move(*ground), std::move(*cpu), std::move(*programs),
-                                                      GpuTimer(timed), GpuTimer(timed), GpuTimer(timed)}));
+  return SceneRenderer(std::unique_ptr<Impl>(new Impl{terrain, scene.directory, std::move(*library), bindings, scene.layers,
+                                                      std::move(*frame), std::move(*ground), std::move(*cpu),
+                                                      std::move(*programs), GpuTimer(timed), GpuTimer(timed),
+                                                      GpuTimer(timed)}));
 }
 
 Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighting& lighting, double time_s,
@@ -198,10 +224,12 @@ Expected<void> SceneRenderer::set_layer(size_t index, const Layer& layer) {
 }
 
 Expected<void> SceneRenderer::reload(const gl::ShaderLibrary& shaders) {
-  auto programs = build_programs(impl_->layers, shaders, impl_->bindings);
+  auto library = with_kinds(shaders, impl_->layers, impl_->directory);
+  if (!library) return tl::unexpected(library.error());
+  auto programs = build_programs(impl_->layers, *library, impl_->bindings);
   if (!programs) return tl::unexpected(programs.error());
   impl_->programs = std::move(*programs);
-  impl_->shaders = shaders;
+  impl_->shaders = std::move(*library);
   return {};
 }
 

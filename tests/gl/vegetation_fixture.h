@@ -65,7 +65,8 @@ inline View eye_level_view(glm::dvec3 eye, glm::ivec2 viewport, double pitch_deg
 /// One layer over the patch: triangles and seeding for a view, ground textures, frame, renderer.
 class Patch {
  public:
-  Patch(Layer layer, ColorMap map, const gl::Bindings& bindings = {}) : layer_(std::move(layer)), map_(std::move(map)) {
+  Patch(Layer layer, ColorMap map, const gl::Bindings& bindings = {}, const gl::ShaderLibrary& shaders = {})
+      : layer_(std::move(layer)), map_(std::move(map)) {
     HeightFieldDesc desc;
     desc.columns = desc.rows = 5;
     desc.spacing = glm::dvec2(k_side / 4);
@@ -79,7 +80,7 @@ class Patch {
     auto frame = gl::Frame::create(bindings);
     EXPECT_TRUE(frame) << frame.error().message;
     frame_ = std::move(*frame);
-    auto renderer = VegetationRenderer::create(layer_, gl::ShaderLibrary(), bindings);
+    auto renderer = VegetationRenderer::create(layer_, shaders, bindings);
     EXPECT_TRUE(renderer) << renderer.error().message;
     if (renderer) renderer_ = std::make_unique<VegetationRenderer>(std::move(*renderer));
   }

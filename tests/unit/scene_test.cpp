@@ -421,6 +421,77 @@ TEST(Scene, Contradictions) {
   expect_error(with_added(6, "triangle_area_m2 = 2000\ndensity = 1000"), 5, "seeds a triangle");
 }
 
+/// The sound scene with another kind of grass, and a line after that.
+std::string with_kind(const std::string& kind, const std::string& table) {
+  return with_added(9, "kind = \"" + kind + "\"" + (table.empty() ? "" : "\n" + table));
+}
+
+TEST(Scene, KindsOfPlants) {
+  const auto scene = parse_scene(
+      with_kind("flower",
+                "flower = { petals = 5, petal_colors = [\"#ff0000\", \"#0000ff\"], petal_shares = [2, 1], "
+                "petal_width = 0.5, cup = -0.25, head_m = [0.01, 0.02], centre_color = \"#00ff00\", "
+                "centre_share = 0.5, stem_color = \"#ffffff\", leaves = 3 }"),
+      "t.toml");
+  ASSERT_TRUE(scene) << scene.error().message;
+  const Species& flower = scene->layers[0].species[0];
+  EXPECT_EQ(flower.kind, PlantKind::flower);
+  EXPECT_EQ(flower.flower.petals, 5);
+  ASSERT_EQ(flower.flower.petal_colors.size(), 2u);
+  EXPECT_EQ(flower.flower.petal_colors[1], glm::vec3(0, 0, 1));
+  EXPECT_EQ(flower.flower.petal_shares, (std::vector<float>{2, 1}));
+  EXPECT_EQ(flower.flower.petal_width, 0.5f);
+  EXPECT_EQ(flower.flower.cup, -0.25f);
+  EXPECT_EQ(flower.flower.head_m.min, 0.01f);
+  EXPECT_EQ(flower.flower.head_m.max, 0.02f);
+  EXPECT_EQ(flower.flower.centre_color, glm::vec3(0, 1, 0));
+  EXPECT_EQ(flower.flower.centre_share, 0.5f);
+  EXPECT_TRUE(flower.flower.own_stem);
+  EXPECT_EQ(flower.flower.stem_color, glm::vec3(1));
+  EXPECT_EQ(flower.flower.leaves, 3);
+
+  const auto tuft = parse_scene(with_kind("tuft", "tuft = { blades = [3, 9], spread_deg = 45 }"), "t.toml");
+  ASSERT_TRUE(tuft) << tuft.error().message;
+  EXPECT_EQ(tuft->layers[0].species[0].kind, PlantKind::tuft);
+  EXPECT_EQ(tuft->layers[0].species[0].tuft.blades.min, 3);
+  EXPECT_EQ(tuft->layers[0].species[0].tuft.blades.max, 9);
+  EXPECT_FLOAT_EQ(tuft->layers[0].species[0].tuft.spread, float(45 * k_degree));
+
+  const auto custom = parse_scene(
+      with_kind("custom", "custom = { functions = \"a/reed.glsl\", shoots = 4, parameters = [1.5, -2] }"), "t.toml");
+  ASSERT_TRUE(custom) << custom.error().message;
+  EXPECT_EQ(custom->layers[0].species[0].kind, PlantKind::custom);
+  EXPECT_EQ(custom->layers[0].species[0].custom.functions, "a/reed.glsl");
+  EXPECT_EQ(custom->layers[0].species[0].custom.shoots, 4);
+  EXPECT_EQ(custom->layers[0].species[0].custom.parameters, (std::vector<float>{1.5f, -2}));
+}
+
+TEST(Scene, KindsOfPlantsOutOfRange) {
+  for (const std::string entry :
+       {"petals = 2", "petals = 33", "petals = 5.5", "petal_colors = []", "petal_colors = [\"red\"]",
+        "petal_colors = \"#ff0000\"", "petal_colors = [\"#1\", \"#2\"]",
+        "petal_colors = [\"#111111\", \"#111111\", \"#111111\", \"#111111\", \"#111111\"]", "petal_shares = [-1]",
+        "petal_shares = [nan]", "petal_shares = [0]", "petal_shares = [1, 1]", "petal_width = 0", "petal_width = 2.1",
+        "cup = 2", "cup = -1.1", "head_m = [0, 1]", "head_m = [0.2, 0.1]", "head_m = 0.2", "centre_color = 3",
+        "centre_share = 0.95", "stem_color = \"#12345\"", "leaves = -1", "leaves = 9", "petal = 5"}) {
+    expect_error(with_kind("flower", "flower = { " + entry + " }"), 11, entry.substr(0, entry.find(' ')));
+  }
+  for (const std::string entry : {"blades = [0, 3]", "blades = [3, 10]", "blades = [5, 4]", "blades = 5",
+                                  "blades = [1.5, 2]", "spread_deg = 91", "spread_deg = -1"}) {
+    expect_error(with_kind("tuft", "tuft = { " + entry + " }"), 11, entry.substr(0, entry.find(' ')) + " = ");
+  }
+  for (const std::string entry : {"functions = \"\"", "functions = 3", "functions = \"a\", shoots = 13",
+                                  "functions = \"a\", shoots = 0", "functions = \"a\", parameters = [nan]",
+                                  "functions = \"a\", parameters = [1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17]"}) {
+    expect_error(with_kind("custom", "custom = { " + entry + " }"), 11, "expected");
+  }
+  expect_error(with_kind("custom", "custom = { shoots = 2 }"), 11, "no functions, expected functions = \"FILE\"");
+  expect_error(with_kind("custom", ""), 7, "species \"grass\" has no functions");
+  expect_error(with_kind("blade", "tuft = { }"), 11, "tuft has no effect on another kind");
+  expect_error(with_kind("tuft", "flower = { }"), 11, "flower has no effect on another kind");
+  expect_error(with_kind("flower", "custom = { functions = \"a\" }"), 11, "custom has no effect on another kind");
+}
+
 TEST(Scene, BrokenToml) {
   expect_error("[terrain\n", 1, "expected TOML");
   expect_error(with_added(1, "a" + std::string(65, '.')), 2, "more than 64 dots");
@@ -481,7 +552,7 @@ TEST(Scene, BuiltInScenesAreSound) {
   EXPECT_EQ(puget->height_scale, 0.1);
   const auto missing = builtin_scene("moon");
   ASSERT_FALSE(missing);
-  EXPECT_NE(missing.error().message.find("\"moon\", expected one of \"meadow\", \"puget\""), std::string::npos)
+  EXPECT_NE(missing.error().message.find("\"moon\", expected one of \"flowers\", \"meadow\", \"puget\""), std::string::npos)
       << missing.error().message;
 }
 
@@ -518,6 +589,9 @@ TEST(Scene, ThePageDescribesEveryKey) {
   expect_described(scene_file::camera_schema(), page);
   expect_described(scene_file::layer_schema(), page);
   expect_described(scene_file::species_schema(), page);
+  expect_described(scene_file::tuft_schema(), page);
+  expect_described(scene_file::flower_schema(), page);
+  expect_described(scene_file::custom_schema(), page);
 }
 
 }  // namespace

@@ -145,6 +145,116 @@ Key<Species> weights_key() {
   return key;
 }
 
+// ---- [layer.species.tuft], [layer.species.flower], [layer.species.custom] ----
+
+/// `#rrggbb` as sRGB, 0..1.
+Key<FlowerShape> color_key(std::string name, glm::vec3 FlowerShape::*member) {
+  return {std::move(name),
+          "\"#rrggbb\"",
+          [=](const toml::node& node, FlowerShape& flower) {
+            const auto color = rgb_of_hex(node);
+            if (color) flower.*member = *color;
+            return color.has_value();
+          },
+          {}};
+}
+
+Key<FlowerShape> stem_key() {
+  Key<FlowerShape> key = color_key("stem_color", &FlowerShape::stem_color);
+  key.read = [read = key.read](const toml::node& node, FlowerShape& flower) {
+    flower.own_stem = read(node, flower);
+    return flower.own_stem;
+  };
+  return key;
+}
+
+Key<FlowerShape> petal_colors_key() {
+  return {"petal_colors",
+          "a list of 1 to 4 colours \"#rrggbb\"",
+          [](const toml::node& node, FlowerShape& flower) {
+            const toml::array* array = node.as_array();
+            if (array == nullptr || array->empty() || array->size() > size_t(k_most_petal_colors)) return false;
+            flower.petal_colors.clear();
+            for (const toml::node& element : *array) {
+              const auto color = rgb_of_hex(element);
+              if (!color) return false;
+              flower.petal_colors.push_back(*color);
+            }
+            return true;
+          },
+          {}};
+}
+
+/// A list of numbers in a range, at most so many.
+template <class T>
+Key<T> numbers(std::string name, std::vector<float> T::*member, Interval range, size_t most) {
+  return {std::move(name),
+          "a list of at most " + std::to_string(most) + " numbers" + range.text(),
+          [=](const toml::node& node, T& target) {
+            const toml::array* array = node.as_array();
+            if (array == nullptr || array->size() > most) return false;
+            (target.*member).clear();
+            for (const toml::node& element : *array) {
+              const auto value = as_number(element);
+              float read = 0;
+              if (!value || !store(*value, range, read)) return false;
+              (target.*member).push_back(read);
+            }
+            return true;
+          },
+          {}};
+}
+
+Key<TuftShape> blades_key() {
+  const Interval range = within(1, 9);
+  return {"blades",
+          "[min, max], two whole numbers" + range.text() + " with min <= max",
+          [=](const toml::node& node, TuftShape& tuft) {
+            const toml::array* array = node.as_array();
+            if (array == nullptr || array->size() != 2) return false;
+            const auto low = as_whole_number((*array)[0], range), high = as_whole_number((*array)[1], range);
+            if (!low || !high || *low > *high) return false;
+            tuft.blades = {int(*low), int(*high)};
+            return true;
+          },
+          {}};
+}
+
+Expected<void> check_flower(const toml::table& table, const FlowerShape& flower, const Context& context) {
+  const auto& shares = flower.petal_shares;
+  if (shares.empty()) return {};
+  if (shares.size() != flower.petal_colors.size()) {
+    return context.fail_at(*table.get("petal_shares"), "there are " + std::to_string(shares.size()) +
+                                                           " petal_shares, expected one for each of " +
+                                                           std::to_string(flower.petal_colors.size()) + " petal_colors");
+  }
+  if (std::all_of(shares.begin(), shares.end(), [](float share) { return share == 0; })) {
+    return context.fail_at(*table.get("petal_shares"), "petal_shares are all 0, expected at least one that is more");
+  }
+  return {};
+}
+
+Expected<void> check_custom(const toml::table& table, const CustomKind&, const Context& context) {
+  if (table.contains("functions")) return {};
+  return context.fail_at(table, "[layer.species.custom] has no functions, expected functions = \"FILE\"");
+}
+
+/// Tables of a kind stand only with that kind; a custom one needs its.
+Expected<void> check_kind_tables(const toml::table& table, const Species& species, const Context& context) {
+  const std::pair<const char*, PlantKind> owners[] = {
+      {"tuft", PlantKind::tuft}, {"flower", PlantKind::flower}, {"custom", PlantKind::custom}};
+  for (const auto& [name, kind] : owners) {
+    if (species.kind == kind) continue;
+    const std::string because = "on another kind, expected only with kind = \"" + std::string(name) + "\"";
+    if (auto fits = refuse(table, {name}, because, context); !fits) return fits;
+  }
+  if (species.kind == PlantKind::custom && !table.contains("custom")) {
+    return context.fail_at(table, "species \"" + species.name +
+                                      "\" has no functions, expected [layer.species.custom] with functions = \"FILE\"");
+  }
+  return {};
+}
+
 Expected<void> check_species(const toml::table& table, const Species& species, const Context& context) {
   if (!table.contains("name")) return context.fail_at(table, "a species has no name, expected name = \"...\"");
   if (table.contains("color") && table.contains("hsv")) {
@@ -155,6 +265,7 @@ Expected<void> check_species(const toml::table& table, const Species& species, c
                            "species \"" + species.name +
                                "\" has no colour, expected color = \"#rrggbb\" or hsv = [hue, saturation, value]");
   }
+  if (auto fits = check_kind_tables(table, species, context); !fits) return fits;
   if (species.kind == PlantKind::none) {
     return refuse(table,
                   {"height_m", "width_m", "stiffness", "lean_deg", "phototropism", "segments", "tint", "age_tint",
@@ -264,12 +375,46 @@ const Schema<Scene>& camera_schema() {
   return schema;
 }
 
+const Schema<TuftShape>& tuft_schema() {
+  static const Schema<TuftShape> schema{
+      "[layer.species.tuft]", {blades_key(), angle("spread_deg", &TuftShape::spread, within(0, 90))}, {}};
+  return schema;
+}
+
+const Schema<FlowerShape>& flower_schema() {
+  using F = FlowerShape;
+  static const Schema<F> schema{
+      "[layer.species.flower]",
+      {petal_colors_key(), numbers("petal_shares", &F::petal_shares, within(0, 1e6), k_most_petal_colors),
+       whole_number("petals", &F::petals, within(3, 32)), number("petal_width", &F::petal_width, within(0.1, 2)),
+       number("cup", &F::cup, within(-1, 1.5)), min_max("head_m", &F::head_m, within(0.001, 10), "metres"),
+       color_key("centre_color", &F::centre_color), number("centre_share", &F::centre_share, within(0, 0.9)),
+       stem_key(), whole_number("leaves", &F::leaves, within(0, 8))},
+      check_flower};
+  return schema;
+}
+
+const Schema<CustomKind>& custom_schema() {
+  using C = CustomKind;
+  static const Schema<C> schema{"[layer.species.custom]",
+                                {text("functions", &C::functions, "the path of a file of GLSL functions"),
+                                 whole_number("shoots", &C::shoots, within(1, k_most_shoots)),
+                                 numbers("parameters", &C::parameters, any_number(), k_most_parameters)},
+                                check_custom};
+  return schema;
+}
+
 const Schema<Species>& species_schema() {
   using S = Species;
   static const Schema<S> schema{
       "[[layer.species]]",
       {text("name", &S::name, "a word"),
-       choice<S, PlantKind>("kind", &S::kind, {{"blade", PlantKind::blade}, {"none", PlantKind::none}}),
+       choice<S, PlantKind>("kind", &S::kind,
+                            {{"blade", PlantKind::blade},
+                             {"none", PlantKind::none},
+                             {"tuft", PlantKind::tuft},
+                             {"flower", PlantKind::flower},
+                             {"custom", PlantKind::custom}}),
        hex_color_key(),
        hsv_key(),
        weights_key(),
@@ -289,7 +434,10 @@ const Schema<Species>& species_schema() {
        number("translucency", &S::translucency, within(0, 10000)),
        number("attenuation", &S::attenuation, within(0, 10000)),
        number("specular", &S::specular, within(0, 10000)),
-       number("shininess", &S::shininess, within(1, 10000))},
+       number("shininess", &S::shininess, within(1, 10000)),
+       table<S, TuftShape>("tuft", &S::tuft, tuft_schema()),
+       table<S, FlowerShape>("flower", &S::flower, flower_schema()),
+       table<S, CustomKind>("custom", &S::custom, custom_schema())},
       check_species};
   return schema;
 }

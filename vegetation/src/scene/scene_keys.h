@@ -18,5 +18,8 @@ const Schema<Scene>& haze_schema();
 const Schema<Scene>& camera_schema();
 const Schema<Layer>& layer_schema();
 const Schema<Species>& species_schema();
+const Schema<TuftShape>& tuft_schema();
+const Schema<FlowerShape>& flower_schema();
+const Schema<CustomKind>& custom_schema();
 
 }  // namespace sward::scene_file

@@ -72,16 +72,32 @@ std::optional<int64_t> as_whole_number(const toml::node& node, Interval range) {
   return whole->get();
 }
 
-std::optional<glm::vec3> hsv_of_hex(const toml::node& node) {
+namespace {
+
+std::optional<std::array<double, 3>> channels_of_hex(const toml::node& node) {
   const auto* text = node.as_string();
   if (text == nullptr || text->get().size() != 7 || text->get()[0] != '#') return std::nullopt;
-  double channels[3];
+  std::array<double, 3> channels;
   for (size_t i = 0; i < 3; ++i) {
     const int high = hex_digit(text->get()[1 + 2 * i]), low = hex_digit(text->get()[2 + 2 * i]);
     if (high < 0 || low < 0) return std::nullopt;
     channels[i] = (16 * high + low) / 255.0;
   }
-  return hsv_of_rgb(channels[0], channels[1], channels[2]);
+  return channels;
+}
+
+}  // namespace
+
+std::optional<glm::vec3> rgb_of_hex(const toml::node& node) {
+  const auto channels = channels_of_hex(node);
+  if (!channels) return std::nullopt;
+  return glm::vec3((*channels)[0], (*channels)[1], (*channels)[2]);
+}
+
+std::optional<glm::vec3> hsv_of_hex(const toml::node& node) {
+  const auto channels = channels_of_hex(node);
+  if (!channels) return std::nullopt;
+  return hsv_of_rgb((*channels)[0], (*channels)[1], (*channels)[2]);
 }
 
 }  // namespace sward::scene_file

@@ -59,6 +59,8 @@ std::optional<std::array<double, N>> as_numbers(const toml::node& node, const st
   }
   return values;
 }
+/// `#rrggbb` as red, green, blue, 0..1.
+std::optional<glm::vec3> rgb_of_hex(const toml::node& node);
 /// `#rrggbb` as hue (turns), saturation, value.
 std::optional<glm::vec3> hsv_of_hex(const toml::node& node);
 

@@ -27,6 +27,43 @@ float least_score(const Species& species) {
   return float(0.99999 * std::pow(double(species.max_distance), -double(species.exponent)));
 }
 
+/// Three bytes as one whole number, exact in a float: red * 65536 + green * 256 + blue.
+float pack_color(glm::vec3 srgb) {
+  const glm::vec3 bytes = glm::round(srgb * 255.0f);
+  return bytes.x * 65536.0f + bytes.y * 256.0f + bytes.z;
+}
+
+void set_flower(const FlowerShape& flower, shared::SpeciesParams& params) {
+  const size_t colors = flower.petal_colors.size();
+  float total = 0.0f;
+  for (const float share : flower.petal_shares) total += share;
+  float sum = 0.0f;
+  glm::vec4 cumulative(1.0f);
+  for (size_t i = 0; i < colors; ++i) {
+    params.own_a[int(i)] = pack_color(flower.petal_colors[i]);
+    sum += flower.petal_shares.empty() ? 1.0f / float(colors) : flower.petal_shares[i] / total;
+    // Rounding must not leave a rest to a colour that is not there.
+    cumulative[int(i)] = i + 1 == colors ? 1.0f : sum;
+  }
+  params.own_b = {cumulative.x, cumulative.y, cumulative.z, flower.cup};
+  params.own_c = {flower.head_m.min, flower.head_m.max, float(flower.petals), flower.centre_share};
+  params.own_d = {pack_color(flower.centre_color), flower.own_stem ? pack_color(flower.stem_color) : -1.0f,
+                  float(flower.leaves), flower.petal_width};
+}
+
+/// Layouts: shaders/common_kinds.glsl.
+void set_own(const Species& s, shared::SpeciesParams& params) {
+  params.own_a = params.own_b = params.own_c = params.own_d = glm::vec4(0.0f);
+  if (s.kind == PlantKind::tuft) {
+    params.own_a = {float(s.tuft.blades.min), float(s.tuft.blades.max), s.tuft.spread, 0.0f};
+  } else if (s.kind == PlantKind::flower) {
+    set_flower(s.flower, params);
+  } else if (s.kind == PlantKind::custom) {
+    glm::vec4* const rows[] = {&params.own_a, &params.own_b, &params.own_c, &params.own_d};
+    for (size_t i = 0; i < s.custom.parameters.size(); ++i) (*rows[i / 4])[int(i % 4)] = s.custom.parameters[i];
+  }
+}
+
 shared::SpeciesParams make_params(const Species& s) {
   shared::SpeciesParams params;
   params.reference = {s.reference_hsv, s.exponent};
@@ -37,6 +74,7 @@ shared::SpeciesParams make_params(const Species& s) {
   params.age_tint = {s.age_tint, s.root_shade};
   params.optics = {s.translucency, s.attenuation, s.specular, s.shininess};
   params.kind = {s.kind == PlantKind::none ? 0.0f : 1.0f, s.forbids ? 1.0f : 0.0f, float(s.max_segments), 0.0f};
+  set_own(s, params);
   return params;
 }
 

@@ -32,6 +32,7 @@ inline uvec2 mul_wide(uint a, uint b) {
 #include "common_seed.glsl"
 #include "common_classify.glsl"
 #include "common_plant.glsl"
+#include "common_kinds.glsl"
 #undef SWARD_FN
 #undef SWARD_PRECISE
 

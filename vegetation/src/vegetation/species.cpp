@@ -71,7 +71,7 @@ class Check {
 };
 
 void check_classification(const Species& species, Check& check) {
-  check.require(species.kind == PlantKind::none || species.kind == PlantKind::blade, "kind is none that is known");
+  check.require(species.kind <= PlantKind::custom, "kind is none that is known");
   check.within("reference_hsv[0]", species.reference_hsv.x, 0.0f, std::nextafter(1.0f, 0.0f));
   check.within("reference_hsv[1]", species.reference_hsv.y, 0.0f, 1.0f);
   check.within("reference_hsv[2]", species.reference_hsv.z, 0.0f, 1.0f);
@@ -99,6 +99,56 @@ void check_growth(const Species& species, Check& check) {
   check.within("attenuation", species.attenuation, 0.0f, k_most);
   check.within("specular", species.specular, 0.0f, k_most);
   check.within("shininess", species.shininess, 1.0f, k_most);
+}
+
+void check_tuft(const TuftShape& tuft, Check& check) {
+  check.within("tuft.blades.min", float(tuft.blades.min), 1.0f, 9.0f);
+  check.within("tuft.blades.max", float(tuft.blades.max), 1.0f, 9.0f);
+  check.require(tuft.blades.max >= tuft.blades.min, "tuft.blades.max is less than tuft.blades.min");
+  check.within("tuft.spread", tuft.spread, 0.0f, 1.5707964f);
+}
+
+void check_petal_colors(const FlowerShape& flower, Check& check) {
+  const size_t colors = flower.petal_colors.size();
+  check.require(colors >= 1 && colors <= size_t(k_most_petal_colors),
+                "flower.petal_colors: there are " + std::to_string(colors) + " but 1 to 4 must be");
+  for (const glm::vec3& color : flower.petal_colors) check.components("flower.petal_colors", color, 0.0f, 1.0f);
+  check.require(flower.petal_shares.empty() || flower.petal_shares.size() == colors,
+                "flower.petal_shares: there are " + std::to_string(flower.petal_shares.size()) + " for " +
+                    std::to_string(colors) + " petal_colors");
+  float sum = 0.0f;
+  for (const float share : flower.petal_shares) {
+    check.within("flower.petal_shares", share, 0.0f, 1.0e6f);
+    sum += share;
+  }
+  check.require(flower.petal_shares.empty() || sum > 0.0f, "flower.petal_shares are all 0; at least one must be more");
+}
+
+void check_flower(const FlowerShape& flower, Check& check) {
+  check_petal_colors(flower, check);
+  check.within("flower.petals", float(flower.petals), 3.0f, 32.0f);
+  check.within("flower.petal_width", flower.petal_width, 0.1f, 2.0f);
+  check.within("flower.cup", flower.cup, -1.0f, 1.5f);
+  check.range("flower.head_m", flower.head_m, 1.0e-3f, 10.0f);
+  check.components("flower.centre_color", flower.centre_color, 0.0f, 1.0f);
+  check.within("flower.centre_share", flower.centre_share, 0.0f, 0.9f);
+  check.components("flower.stem_color", flower.stem_color, 0.0f, 1.0f);
+  check.within("flower.leaves", float(flower.leaves), 0.0f, 8.0f);
+}
+
+void check_custom(const CustomKind& custom, Check& check) {
+  check.require(!custom.functions.empty(), "custom.functions names no file; a kind of the host's own needs one");
+  check.within("custom.shoots", float(custom.shoots), 1.0f, float(k_most_shoots));
+  check.require(custom.parameters.size() <= size_t(k_most_parameters),
+                "custom.parameters: there are " + std::to_string(custom.parameters.size()) + " but at most 16 fit");
+  for (const float parameter : custom.parameters)
+    check.within("custom.parameters", parameter, std::numeric_limits<float>::lowest(), std::numeric_limits<float>::max());
+}
+
+void check_kind(const Species& species, Check& check) {
+  if (species.kind == PlantKind::tuft) check_tuft(species.tuft, check);
+  if (species.kind == PlantKind::flower) check_flower(species.flower, check);
+  if (species.kind == PlantKind::custom) check_custom(species.custom, check);
 }
 
 Expected<void> check_layer(const Layer& layer, const std::string& owner) {
@@ -136,6 +186,7 @@ Expected<void> validate(const Layer& layer) {
     Check check(owner + ": species " + std::to_string(i) + " '" + species.name + "'");
     check_classification(species, check);
     check_growth(species, check);
+    check_kind(species, check);
     if (auto checked = check.result(); !checked) return checked;
   }
   return {};
@@ -144,7 +195,10 @@ Expected<void> validate(const Layer& layer) {
 float canopy_height(const Layer& layer) {
   float height = 0.0f;
   for (const Species& species : layer.species) {
-    if (species.kind != PlantKind::none) height = std::max(height, species.height_m.max);
+    if (species.kind == PlantKind::none) continue;
+    // Heads grow with distance as blades widen, by the root of 8 at most.
+    const float head = species.kind == PlantKind::flower ? 1.5f * species.flower.head_m.max : 0.0f;
+    height = std::max(height, species.height_m.max + head);
   }
   return height;
 }

@@ -25,11 +25,18 @@ std::vector<StreamPlace> place_species(const Layer& layer) {
   return places;
 }
 
+int shoots_per_patch(const Layer& layer) {
+  constexpr int k_most_lines = 64;  // of a patch, GL's own limit
+  return std::min(k_most_lines / layer.cluster_size, k_most_shoots);
+}
+
 std::vector<gl::Define> layer_defines(const Layer& layer, const gl::Bindings& bindings) {
   std::vector<gl::Define> defines = gl::binding_defines(bindings);
   defines.push_back({"SWARD_CLUSTER_SIZE", std::to_string(layer.cluster_size)});
   defines.push_back({"SWARD_BLADE_COLUMNS", std::to_string(k_blade_columns)});
   defines.push_back({"SWARD_BLADE_ROWS", std::to_string(k_blade_rows)});
+  defines.push_back({"SWARD_MOST_SHOOTS", std::to_string(k_most_shoots)});
+  defines.push_back({"SWARD_SHOOTS_PER_PATCH", std::to_string(shoots_per_patch(layer))});
   // The second invocation of the geometry shader is the shadow.
   defines.push_back({"SWARD_GROWTH_INVOCATIONS", layer.shadows ? "2" : "1"});
   return defines;

@@ -13,19 +13,50 @@ namespace {
 
 constexpr GLint k_species_location = 0;
 
-/// How a kind of plant is grown: its shader files. A further kind is a further row.
+/// A program that draws a kind of plant. A kind may have several rows, drawn in this order; a further kind is a further
+/// row.
 struct KindProgram {
   PlantKind kind;
   const char *name, *vertex, *tess_control, *tess_evaluation, *geometry, *fragment;
+  /// For kinds made of shoots: the file of its functions (nullptr: the species names it), and the shoots of a plant.
+  bool of_shoots = false;
+  const char* functions = nullptr;
+  int (*shoots)(const Species& species) = nullptr;
+  /// Points that the tessellator makes of one line; nullptr: by segments.
+  int (*points)(const Species& species) = nullptr;
 };
-constexpr std::array<KindProgram, 1> k_kinds{{
+constexpr std::array<KindProgram, 5> k_kinds{{
     {PlantKind::blade, "grass_blade", "grow.vert.glsl", "grass_blade.tesc.glsl", "grass_blade.tese.glsl",
      "grass_blade.geom.glsl", "grass_blade.frag.glsl"},
+    {PlantKind::tuft, "tuft", "shoot.vert.glsl", "shoot.tesc.glsl", "shoot.tese.glsl", "grass_blade.geom.glsl",
+     "shoot.frag.glsl", true, "kind_tuft.glsl", [](const Species& s) { return s.tuft.blades.max; }},
+    {PlantKind::flower, "flower_stem", "shoot.vert.glsl", "shoot.tesc.glsl", "shoot.tese.glsl", "grass_blade.geom.glsl",
+     "shoot.frag.glsl", true, "kind_flower.glsl", [](const Species& s) { return 1 + s.flower.leaves; }},
+    {PlantKind::flower, "flower_head", "grow.vert.glsl", "flower_head.tesc.glsl", "flower_head.tese.glsl",
+     "flower_head.geom.glsl", "flower_head.frag.glsl", false, nullptr, nullptr,
+     [](const Species& s) { return s.flower.petals + 1; }},
+    {PlantKind::custom, "custom", "shoot.vert.glsl", "shoot.tesc.glsl", "shoot.tese.glsl", "grass_blade.geom.glsl",
+     "shoot.frag.glsl", true, nullptr, [](const Species& s) { return s.custom.shoots; }},
 }};
 
-size_t row_of(PlantKind kind) {
-  const auto row = std::find_if(k_kinds.begin(), k_kinds.end(), [&](const KindProgram& k) { return k.kind == kind; });
-  return size_t(row - k_kinds.begin());
+/// The file of functions that a species' program is built with; empty for kinds that are not made of shoots.
+std::string functions_of(const KindProgram& kind, const Species& species) {
+  if (!kind.of_shoots) return {};
+  return kind.functions != nullptr ? kind.functions : species.custom.functions;
+}
+
+Expected<gl::Program> build_program(const KindProgram& kind, const std::string& functions, const Layer& layer,
+                                    const gl::ShaderLibrary& shaders, const gl::Bindings& bindings) {
+  gl::ShaderLibrary library = shaders;
+  if (!functions.empty()) library.add_source("plant_kind.glsl", "#include \"" + functions + "\"\n");
+  return library.build({.name = kind.name,
+                        .vertex = kind.vertex,
+                        .tess_control = kind.tess_control,
+                        .tess_evaluation = kind.tess_evaluation,
+                        .geometry = kind.geometry,
+                        .fragment = kind.fragment,
+                        .defines = layer_defines(layer, bindings),
+                        .feedback_varyings = {}});
 }
 
 /// A buffer texture, so that no pixel-store state of the host meddles with it.
@@ -35,17 +66,20 @@ void attach_shapes(const BladeShapes& shapes, gl::Buffer& buffer, gl::Texture& t
   glTextureBuffer(texture.id(), GL_RGBA32F, buffer.id());
 }
 
+/// Patches of a cluster that hold all shoots of its plants.
+int instances_of(const KindProgram& kind, const Layer& layer, const Species& species) {
+  if (!kind.of_shoots) return 1;
+  const int a_patch = shoots_per_patch(layer);
+  return (kind.shoots(species) + a_patch - 1) / a_patch;
+}
+
 /// Mesa's software tessellator numbers the points of a draw with 16 bits: beyond that, lines are drawn again in place of
 /// those that follow. The most clusters of a species whose points still have a number each; odd spacing adds up to two
 /// segments, a line one point.
-GLsizei part_of(const Layer& layer, const Species& species) {
-  const int points = layer.cluster_size * (species.max_segments + 3);
-  return std::max(0xffff / points, 1);
-}
-
-void draw_parts(GLsizei clusters, GLsizei part) {
-  for (GLsizei first = 0; first < clusters; first += part)
-    glDrawArrays(GL_PATCHES, first, std::min(part, clusters - first));
+GLsizei part_of(const KindProgram& kind, const Layer& layer, const Species& species) {
+  const int points = kind.points != nullptr ? kind.points(species) : species.max_segments + 3;
+  const int lines = layer.cluster_size * (kind.of_shoots ? kind.shoots(species) : 1);
+  return std::max(0xffff / (lines * points), 1);
 }
 
 }  // namespace
@@ -66,29 +100,44 @@ Expected<GrowthStage> GrowthStage::create(const Layer& layer, const gl::ShaderLi
                                           const gl::Bindings& bindings) {
   GrowthStage stage;
   stage.draws_in_parts_ = gl::software_renderer();
-  stage.programs_.resize(k_kinds.size());
   for (const Species& species : layer.species) {
-    const size_t row = row_of(species.kind);
-    stage.program_of_.push_back(row);
-    stage.part_.push_back(part_of(layer, species));
-    if (species.kind == PlantKind::none || stage.programs_[row]) continue;
-    const KindProgram& kind = k_kinds[row];
-    auto program = shaders.build({.name = kind.name,
-                                  .vertex = kind.vertex,
-                                  .tess_control = kind.tess_control,
-                                  .tess_evaluation = kind.tess_evaluation,
-                                  .geometry = kind.geometry,
-                                  .fragment = kind.fragment,
-                                  .defines = layer_defines(layer, bindings),
-                                  .feedback_varyings = {}});
-    if (!program) return tl::unexpected(program.error());
-    stage.programs_[row] = std::move(*program);
+    if (auto added = stage.add_species(layer, species, shaders, bindings); !added)
+      return tl::unexpected(added.error());
   }
   auto shapes = make_blade_shapes();
   if (!shapes) return tl::unexpected(shapes.error());
   attach_shapes(*shapes, stage.blade_shape_buffer_, stage.blade_shape_);
   stage.vertex_array_ = make_cluster_array();
   return stage;
+}
+
+Expected<void> GrowthStage::add_species(const Layer& layer, const Species& species, const gl::ShaderLibrary& shaders,
+                                        const gl::Bindings& bindings) {
+  std::vector<Pass>& passes = passes_.emplace_back();
+  for (const KindProgram& kind : k_kinds) {
+    if (kind.kind != species.kind) continue;
+    const std::string functions = functions_of(kind, species), name = kind.name + (" " + functions);
+    const size_t row = size_t(std::find(program_names_.begin(), program_names_.end(), name) - program_names_.begin());
+    if (row == programs_.size()) {
+      auto program = build_program(kind, functions, layer, shaders, bindings);
+      if (!program) {
+        return fail("layer '" + layer.name + "': species '" + species.name + "': " + program.error().message);
+      }
+      programs_.push_back(std::move(*program));
+      program_names_.push_back(name);
+    }
+    passes.push_back({row, GLsizei(instances_of(kind, layer, species)), part_of(kind, layer, species)});
+  }
+  return {};
+}
+
+void GrowthStage::draw(const Pass& pass, const FeedbackPass& feedback, int stream, uint32_t fertile) const {
+  if (!draws_in_parts_) {
+    glDrawTransformFeedbackStreamInstanced(GL_PATCHES, feedback.id(), GLuint(stream), pass.instances);
+    return;
+  }
+  for (GLsizei first = 0; first < GLsizei(fertile); first += pass.part)
+    glDrawArraysInstanced(GL_PATCHES, first, std::min(pass.part, GLsizei(fertile) - first), pass.instances);
 }
 
 void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& classified,
@@ -105,14 +154,12 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
   for (size_t i = 0; i < classified.places().size(); ++i) {
     const StreamPlace& place = classified.places()[i];
     const FeedbackPass& pass = classified.pass(place.pass);
-    const GLuint program = programs_[program_of_[size_t(place.species)]].id();
-    glUseProgram(program);
-    glProgramUniform1i(program, k_species_location, place.species);
     set_stream(vertex_array_, pass.stream(place.stream));
-    if (draws_in_parts_) {
-      draw_parts(GLsizei(fertile[i]), part_[size_t(place.species)]);
-    } else {
-      glDrawTransformFeedbackStream(GL_PATCHES, pass.id(), GLuint(place.stream));
+    for (const Pass& each : passes_[size_t(place.species)]) {
+      const GLuint program = programs_[each.program].id();
+      glUseProgram(program);
+      glProgramUniform1i(program, k_species_location, place.species);
+      draw(each, pass, place.stream, draws_in_parts_ ? fertile[i] : 0);
     }
   }
   set_stream(vertex_array_, 0);

@@ -23,6 +23,9 @@ struct StreamPlace {
 /// Species that grow, in the layer's order, four a pass.
 std::vector<StreamPlace> place_species(const Layer& layer);
 
+/// Shoots of each plant that a patch can grow, for kinds made of shoots.
+int shoots_per_patch(const Layer& layer);
+
 /// Defines of every program of a layer.
 std::vector<gl::Define> layer_defines(const Layer& layer, const gl::Bindings& bindings);
 
@@ -91,12 +94,22 @@ class GrowthStage {
   void run(const StageInputs& inputs, const ClassificationStage& classified, std::span<const uint32_t> fertile);
 
  private:
-  std::vector<gl::Program> programs_;  ///< By row of the table of kinds; empty where the layer has none of it.
-  std::vector<size_t> program_of_;     ///< By species.
+  /// A draw of a species' stream: a kind may take several.
+  struct Pass {
+    size_t program;
+    GLsizei instances;  ///< Of each patch.
+    GLsizei part;       ///< Most clusters in a draw, where draws go in parts.
+  };
+  Expected<void> add_species(const Layer& layer, const Species& species, const gl::ShaderLibrary& shaders,
+                             const gl::Bindings& bindings);
+  void draw(const Pass& pass, const FeedbackPass& feedback, int stream, uint32_t fertile) const;
+
+  std::vector<gl::Program> programs_;
+  std::vector<std::string> program_names_;  ///< What each was built of: species of the same share it.
+  std::vector<std::vector<Pass>> passes_;   ///< By species.
   gl::Buffer blade_shape_buffer_;
   gl::Texture blade_shape_;
   gl::VertexArray vertex_array_;
-  std::vector<GLsizei> part_;  ///< By species: most clusters in a draw, where draws go in parts.
   bool draws_in_parts_ = false;
 };
 

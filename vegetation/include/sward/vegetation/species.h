@@ -14,10 +14,47 @@ namespace sward {
 enum class PlantKind : uint32_t {
   none,   ///< Bare ground: soil, rock, snow. Competes for clusters, grows nothing.
   blade,  ///< A blade of grass.
+  tuft,   ///< Blades fanned out from one root: Species::tuft.
+  flower, ///< A stem with a head at its end: Species::flower.
+  custom, ///< A host's own, made of shoots by its GLSL functions: Species::custom.
 };
 
 struct FloatRange {
   float min = 0, max = 0;
+};
+struct IntRange {
+  int min = 0, max = 0;
+};
+
+/// Of PlantKind::tuft. The species' height is its tallest blade's, its width a blade's.
+struct TuftShape {
+  IntRange blades{4, 7};  ///< Of a seed, each number as likely: 1..9. Fewer and wider ones with distance.
+  float spread = 0.7f;    ///< Largest lean of a blade at the root, radians, 0..pi/2.
+};
+
+/// Of PlantKind::flower. The species' height, width, stiffness are the stem's; heads look along its end, up, and by
+/// phototropism at the sun. Colours are sRGB, 0..1, and not the ground's.
+struct FlowerShape {
+  std::vector<glm::vec3> petal_colors{{0.95f, 0.94f, 0.90f}};  ///< 1..4; each plant picks one by its own number.
+  std::vector<float> petal_shares;  ///< Of plants, by colour, in proportion; one a colour, >= 0; empty: equal shares.
+  int petals = 13;                  ///< 3..32.
+  float petal_width = 1.0f;         ///< 1: neighbours nearly meet; 0.1..2.
+  float cup = 0.15f;                ///< How far petals rise: 0 flat, 1 a bowl as deep as its radius, < 0 hang; -1..1.5.
+  FloatRange head_m{0.03f, 0.045f}; ///< Diameter, metres, 0.001..10.
+  glm::vec3 centre_color{0.92f, 0.72f, 0.12f};
+  float centre_share = 0.3f;        ///< Radius of the centre against the head's, 0..0.9.
+  bool own_stem = false;            ///< Stem and leaves have stem_color, else the ground's as grass has.
+  glm::vec3 stem_color{0.36f, 0.48f, 0.22f};
+  int leaves = 0;                   ///< At the foot of the stem, 0..8.
+};
+
+/// Of PlantKind::custom.
+struct CustomKind {
+  /// Name of a file of GLSL functions in the renderer's ShaderLibrary (see shaders/common_shoot.glsl for what it must
+  /// define). Not empty.
+  std::string functions;
+  int shoots = 1;                 ///< Most shoots that kind_shoots answers, 1..12.
+  std::vector<float> parameters;  ///< At most 16, finite; functions find them in own_a..own_d of SpeciesParams, 0 where missing.
 };
 
 /// A reference colour, placement rules and growth parameters (Papavasiliou 2015, section 3.3).
@@ -49,6 +86,10 @@ struct Species {
   float attenuation = 0.4f;             ///< alpha of equation 13, >= 0.
   float specular = 0.12f;               ///< k_s of equation 14, >= 0.
   float shininess = 24.0f;              ///< n of equation 14, >= 1.
+
+  TuftShape tuft;      ///< Read for kind tuft alone, the next for flower and custom.
+  FlowerShape flower;
+  CustomKind custom;
 };
 
 enum class DensityLaw : uint32_t {
@@ -80,6 +121,9 @@ struct Layer {
 inline constexpr int k_max_species = 64;  ///< In one layer.
 inline constexpr int k_max_cluster_size = 32;
 inline constexpr int k_density_bins = 32;
+inline constexpr int k_most_shoots = 12;  ///< Of a plant; a patch of tessellation has 64 lines for all plants of a cluster.
+inline constexpr int k_most_petal_colors = 4;
+inline constexpr int k_most_parameters = 16;
 
 /// Fails naming layer, species, field and range.
 Expected<void> validate(const Layer& layer);

@@ -1,0 +1,63 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+// Fragments of strips, whatever they are strips of: coverage, light, the shadow on the ground. GLSL only, fragment
+// stage.
+#include "common_light.glsl"
+#include "common_ground.glsl"
+#include "common_leaf.glsl"
+#include "common_layer.glsl"
+#include "common_cover.glsl"
+
+layout(location = 0) uniform int sward_species;
+layout(binding = SWARD_BINDING_BASE_MAP) uniform sampler2D sward_base_map;
+
+layout(location = 0) in vec4 strip_point;        // relative to the eye; arc length
+layout(location = 1) in vec4 strip_normal;       // towards the viewer, rounded; -1..1 across
+layout(location = 2) in vec2 strip_cover;        // share of the strip that the plant covers; height above the ground
+layout(location = 3) flat in vec4 strip_color;   // ground at the root; age
+layout(location = 4) flat in vec4 strip_ground;  // normal; melting
+layout(location = 5) flat in vec4 strip_self;    // base map coordinates below the eye; phase; shadow's strength, or
+                                                 // -1 - shoot
+
+layout(location = 0) out vec4 color;
+
+// Sunlight left in the densest shadow: light between the blades and through them.
+const float k_shadow_light = 0.12;
+
+// How much of the ground's normal even near blades take on.
+const float k_field_share = 0.3;
+
+vec3 shadow_color(float strength) {
+  vec2 uv = strip_self.xy + strip_point.xy * sward_layer.layer.map.xy / sward_layer.layer.map.zw;
+  vec3 normal = strip_ground.xyz;
+  GroundDetail detail = ground_detail(strip_point.xyz, normal);
+  vec3 albedo = ground_albedo(sward_base_map, uv, detail);
+  vec3 rough_normal = normalize(vec3(normal.xy / normal.z - detail.slope, 1.0));
+  return shade_ground(albedo, rough_normal, strip_point.xyz, mix(1.0, k_shadow_light, strength));
+}
+
+// A leaf's light; `field`: how much of the ground's normal it takes on.
+vec3 lit_leaf(SpeciesParams species, Leaf leaf, float field) {
+  vec3 normal = normalize(mix(normalize(strip_normal.xyz), strip_ground.xyz, field));
+  return shade_leaf(species, leaf, normal, normalize(-strip_point.xyz));
+}
+
+// A leaf of a meadow: it takes light from above as a whole, the more so the less single blades can be told apart, and
+// far away becomes the ground.
+vec3 meadow_color(SpeciesParams species, Leaf leaf) {
+  vec3 lit = lit_leaf(species, leaf, mix(k_field_share, 0.8, strip_ground.w));
+  vec3 ground = strip_color.rgb * (ambient(strip_ground.xyz) +
+                                   sun_light() * max(dot(strip_ground.xyz, frame.sun_direction.xyz), 0.0));
+  return apply_haze(mix(lit, ground, strip_ground.w), strip_point.xyz);
+}
+
+// The samples of this fragment that are covered; 0: none, it is to be discarded.
+int strip_mask() {
+  float phase = strip_self.z;
+  if (frame.eye_noise.w > 1.0) return coverage_mask(strip_cover.x, phase);
+  return hidden_by_hash(strip_cover.x, phase, strip_point) ? 0 : k_all_samples;
+}
+
+bool strip_is_shadow() { return strip_self.w >= 0.0; }
+int strip_shoot() { return int(-0.5 - strip_self.w); }

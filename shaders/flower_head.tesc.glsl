@@ -1,0 +1,91 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+// Growth of flowers' heads, a patch a cluster: each invocation finds where one plant's stem ends and which way its head
+// looks. A head becomes an isoline, each segment of it a petal; where all heads of a patch are dots, one segment a dot.
+#include "common_worth.glsl"
+#include "common_blade.glsl"
+#include "common_head.glsl"
+#include "kind_flower.glsl"
+
+layout(vertices = SWARD_CLUSTER_SIZE) out;
+
+layout(location = 0) in uvec4 cluster_words[];
+
+layout(location = 0) out vec4 head_place[];  // middle relative to the eye, radius as drawn (0: not drawn)
+layout(location = 1) out vec4 head_axis[];   // where it looks, unit; its turn about that (rad)
+layout(location = 2) out vec4 head_plane[];  // of the ground: unit normal; offset
+layout(location = 3) out vec4 head_color[];  // petals', linear; pixels across
+layout(location = 4) out vec4 head_map[];    // base map coordinates below the eye; phase; distance
+layout(location = 5) patch out uint head_slots[(SWARD_CLUSTER_SIZE + 3) / 4];  // plant of each line, 8 bits each
+
+// Up, along the stem's end, and towards a risen sun as far as the species turns to it.
+vec3 head_direction(SpeciesParams species, vec3 tangent) {
+  vec3 sun = frame.sun_direction.xyz * (frame.sun_direction.w * species.posture.w);
+  return normalize(0.8 * tangent + 0.45 * frame.up.xyz + 1.1 * sun);
+}
+
+vec3 petal_linear(SpeciesParams species, uint state, float phase) {
+  vec3 color = unpack_color(species.own_a[petal_choice(species, state)]);
+  return color * (0.86 + 0.2 * fract(phase * 13.7));
+}
+
+void write_head(SpeciesParams species, Seedling s) {
+  Shoot stem = kind_shoot(species, s.traits, 0);
+  vec2 azimuth = vec2(cos(stem.azimuth), sin(stem.azimuth));
+  vec3 normal = s.ground_normal;
+  BladeCurve curve = free_curve(stem.stiffness, stem.lean, -dot(normal.xy, azimuth) / normal.z);
+  curve.contact = find_contact(curve);
+  BladePoint end = curve_point(curve, 1.0);
+  vec3 tangent = vec3(azimuth * sin(end.inclination), cos(end.inclination));
+  vec3 middle = s.root + s.traits.height * s.presence.fade * vec3(azimuth * end.along, end.up);
+
+  // Where plants are fewer their heads are larger, in area as blades are in width.
+  float radius = 0.5 * head_diameter(species, s.traits.state) * s.presence.fade * sqrt(s.presence.widen);
+  vec3 axis = head_direction(species, tangent);
+  // A head at the ground lies on it.
+  float clearance = dot(normal, middle - s.root);
+  axis = normalize(mix(normal, axis, clamp(clearance / radius - 0.1, 0.0, 1.0)));
+  middle += normal * max(0.1 * radius - clearance, 0.0);
+  vec2 uv_per_m = sward_layer.layer.map.xy / sward_layer.layer.map.zw;
+  float distance = max(length(middle), 1.0e-3);
+  head_place[gl_InvocationID] = vec4(middle, radius);
+  head_axis[gl_InvocationID] = vec4(axis, s.traits.phase * 6.2831853);
+  head_plane[gl_InvocationID] = vec4(normal, dot(normal, s.root));
+  head_color[gl_InvocationID] =
+      vec4(petal_linear(species, s.traits.state, s.traits.phase), 2.0 * radius * frame.focal.y / distance);
+  head_map[gl_InvocationID] = vec4(s.map_uv - s.root.xy * uv_per_m, s.traits.phase, s.distance);
+}
+
+void grow_head() {
+  head_place[gl_InvocationID] = vec4(0.0);
+  FertileCluster fertile = unpack_cluster(cluster_words[0]);
+  Triangle triangle = fetch_triangle(fertile.record);
+  Seedling s = place_seed(fertile, triangle, uint(gl_InvocationID));
+  SpeciesParams species = sward_layer.species[sward_species];
+  if (!worth_growing(s, species.size.y + 2.0 * species.own_c.y)) return;
+  s = grow_seed(fertile, triangle, s);
+  if (s.presence.fade > 0.0) write_head(species, s);
+}
+
+void main() {
+  grow_head();
+  barrier();
+  if (gl_InvocationID != 0) return;
+
+  uint lines = 0u;
+  float largest = 0.0;
+  for (int slot = 0; slot < head_slots.length(); ++slot) head_slots[slot] = 0u;
+  for (uint i = 0u; i < uint(SWARD_CLUSTER_SIZE); ++i) {
+    if (head_place[i].w <= 0.0) continue;
+    head_slots[lines / 4u] |= i << (8u * (lines % 4u));
+    largest = max(largest, head_color[i].w);
+    ++lines;
+  }
+  gl_TessLevelOuter[0] = float(lines);
+  gl_TessLevelOuter[1] = largest > k_dot_px ? head_petals(sward_layer.species[sward_species]) : 1.0;
+  gl_TessLevelOuter[2] = 1.0;
+  gl_TessLevelOuter[3] = 1.0;
+  gl_TessLevelInner[0] = 1.0;
+  gl_TessLevelInner[1] = 1.0;
+}

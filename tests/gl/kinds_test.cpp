@@ -1,0 +1,365 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+// What growth draws of kinds other than blades: tufts, flowers, kinds of a host's own.
+#include <sward/vegetation/blade_shape.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "gl/vegetation_fixture.h"
+#include "host/render_target.h"
+#include "vegetation/layer_params.h"
+
+namespace sward {
+namespace {
+
+using namespace test;
+
+class Kinds : public GlTest {};
+
+constexpr glm::ivec2 k_size{480, 360};
+
+struct Picture {
+  std::vector<uint8_t> rgb;
+  glm::ivec3 at(int x, int y) const {
+    const uint8_t* p = &rgb[size_t(y * k_size.x + x) * 3];
+    return {p[0], p[1], p[2]};
+  }
+};
+
+bool lit(glm::ivec3 color) {
+  return color.x + color.y + color.z > 0;
+}
+bool red(glm::ivec3 color) {
+  return color.x > 40 && color.x > 2 * color.y && color.x > 2 * color.z;
+}
+bool blue(glm::ivec3 color) {
+  return color.z > 40 && color.z > 2 * color.x && color.z > 2 * color.y;
+}
+
+/// Plants alone on black.
+Picture render(Patch& patch, const View& view) {
+  auto target = host::RenderTarget::create(k_size, patch.samples);
+  EXPECT_TRUE(target) << target.error().message;
+  target->begin();
+  patch.look(view);
+  patch.classify(target->framebuffer());
+  patch.draw();
+  EXPECT_FALSE(patch.renderer().stats(true).overflow);
+  return {target->read_rgb()};
+}
+
+glm::dvec2 pixel_of(const View& view, glm::dvec3 world) {
+  const glm::dvec4 clip = view.clip_from_relative() * glm::dvec4(world - view.eye, 1.0);
+  const glm::dvec2 ndc = glm::dvec2(clip) / clip.w;
+  return {(ndc.x * 0.5 + 0.5) * k_size.x, (0.5 - ndc.y * 0.5) * k_size.y};
+}
+
+bool inside(glm::dvec2 pixel, double margin) {
+  return pixel.x > margin && pixel.y > margin && pixel.x < k_size.x - margin && pixel.y < k_size.y - margin;
+}
+
+View from_above(double height) {
+  return View::look({8.0, -8.0, height}, std::numbers::pi / 2, -0.5 * std::numbers::pi, 1.2, k_size, 0.05, 1000);
+}
+
+/// One species, few plants, full-grown, everything near.
+Layer sparse(const Species& species, float density) {
+  Layer layer;
+  layer.species = {species};
+  layer.density = density;
+  layer.plain = true;
+  layer.shadows = false;
+  layer.full_distance_m = layer.horizon_m = layer.full_segments_m = 60;
+  return layer;
+}
+
+/// Red heads on upright stems.
+Species red_flower() {
+  Species species = grass_of("flower", k_green);
+  species.kind = PlantKind::flower;
+  species.height_m = {0.6f, 0.9f};
+  species.width_m = {0.01f, 0.01f};
+  species.stiffness = {0.9f, 0.9f};
+  species.lean = 0;
+  species.flower.petal_colors = {{0.9f, 0.02f, 0.02f}};
+  species.flower.centre_color = {0.9f, 0.02f, 0.02f};
+  species.flower.head_m = {0.2f, 0.2f};
+  species.flower.petals = 9;
+  return species;
+}
+
+Species tuft(int least, int most) {
+  Species species = grass_of("tuft", k_green);
+  species.kind = PlantKind::tuft;
+  species.tuft.blades = {least, most};
+  return species;
+}
+
+/// A plant's own numbers beyond its traits, as the shaders draw them.
+uint32_t state_of(const Layer& layer, const Plant& plant) {
+  const shared::LayerParams params = make_layer_params(layer, from_above(10), {}, 0);
+  const glm::uvec2 id(uint32_t(plant.triangle.bits), uint32_t(plant.triangle.bits >> 32));
+  return shared::make_traits(make_species_params(layer)[plant.species], params, id, plant.rank, plant.score).state;
+}
+
+/// Where a plant's curve ends.
+glm::dvec3 tip_of(const Plant& plant, const BladeShapes& shapes) {
+  const float column = plant.stiffness * (k_blade_columns - 1);
+  const size_t left = std::min(size_t(column), size_t(k_blade_columns - 2));
+  const size_t row = size_t(k_blade_rows - 1) * k_blade_columns;
+  const glm::dvec3 shape(glm::mix(shapes.texels[row + left], shapes.texels[row + left + 1], column - float(left)));
+  const glm::dvec3 way(std::cos(plant.azimuth) * shape.x, std::sin(plant.azimuth) * shape.x, shape.y);
+  return plant.position + double(plant.height) * way;
+}
+
+TEST_F(Kinds, HeadsStandAtTheEndsOfTheirStems) {
+  const auto shapes = make_blade_shapes();
+  ASSERT_TRUE(shapes) << shapes.error().message;
+  // All heads petals, then all heads dots.
+  for (const float diameter : {0.25f, 0.04f}) {
+    Species species = red_flower();
+    species.flower.head_m = {diameter, diameter};
+    Patch patch(sparse(species, 0.5f), plain_map(k_side, 8, k_green));
+    patch.level = 5;
+    const View view = eye_level_view({8.0, -15.5, 1.6}, k_size, -12);
+    const Picture picture = render(patch, view);
+    std::vector<std::pair<glm::dvec2, double>> heads;  // pixel, largest reach in pixels
+    size_t checked = 0;
+    for (const Plant& plant : patch.plants_of_gpu()) {
+      const glm::dvec3 tip = tip_of(plant, *shapes);
+      if (tip.y - view.eye.y < 0.5) continue;
+      const glm::dvec2 pixel = pixel_of(view, tip);
+      const double distance = glm::length(tip - view.eye);
+      const double reach = 0.6 * diameter * view.focal_px().y / distance;
+      heads.emplace_back(pixel, reach + 2.5);
+      if (!inside(pixel, 4) || distance < 2 || distance > 12) continue;
+      bool found = false;
+      for (int i = 0; i < 9; ++i) found = found || red(picture.at(int(pixel.x) + i % 3 - 1, int(pixel.y) + i / 3 - 1));
+      EXPECT_TRUE(found) << diameter << " at " << pixel.x << ", " << pixel.y;
+      ++checked;
+    }
+    EXPECT_GE(checked, 20u);
+    size_t astray = 0, all = 0;
+    for (int y = 0; y < k_size.y; ++y) {
+      for (int x = 0; x < k_size.x; ++x) {
+        if (!red(picture.at(x, y))) continue;
+        ++all;
+        const glm::dvec2 pixel(x + 0.5, y + 0.5);
+        astray += std::none_of(heads.begin(), heads.end(),
+                               [&](const auto& head) { return glm::distance(head.first, pixel) < head.second; });
+      }
+    }
+    EXPECT_GT(all, 100u);
+    EXPECT_EQ(astray, 0u) << "of " << all;
+  }
+}
+
+TEST_F(Kinds, EachFlowerHasTheColourOfItsOwnNumber) {
+  Species species = red_flower();
+  species.flower.petal_colors = {{0.9f, 0.02f, 0.02f}, {0.02f, 0.02f, 0.9f}};
+  species.flower.petal_shares = {3, 1};
+  species.flower.centre_share = 0;
+  species.flower.head_m = {0.3f, 0.3f};
+  const Layer layer = sparse(species, 1.0f);
+  Patch patch(layer, plain_map(k_side, 8, k_green));
+  const View view = from_above(14);
+  const Picture picture = render(patch, view);
+  const auto shapes = make_blade_shapes();
+  ASSERT_TRUE(shapes) << shapes.error().message;
+  const shared::SpeciesParams params = make_species_params(layer)[0];
+  size_t seen[2] = {0, 0}, other = 0;
+  for (const Plant& plant : patch.plants_of_gpu()) {
+    const glm::dvec2 pixel = pixel_of(view, tip_of(plant, *shapes));
+    if (!inside(pixel, 3)) continue;
+    const int expected = shared::petal_choice(params, state_of(layer, plant));
+    const glm::ivec3 color = picture.at(int(pixel.x), int(pixel.y));
+    // Another head may stand before this one.
+    if ((expected == 0 && red(color)) || (expected == 1 && blue(color))) {
+      ++seen[expected];
+    } else {
+      ++other;
+    }
+  }
+  const double all = double(seen[0] + seen[1]);
+  EXPECT_GT(all, 150.0);
+  EXPECT_LT(double(other), 0.1 * all);
+  // 99.9 % of a binomial distribution.
+  EXPECT_NEAR(double(seen[1]) / all, 0.25, 3.29 * std::sqrt(0.25 * 0.75 / all));
+}
+
+TEST_F(Kinds, TuftsHaveTheBladesOfTheirOwnNumber) {
+  for (const int cluster : {1, 5, 8, 32}) {
+    Species species = tuft(3, 9);
+    species.max_segments = 1;
+    Layer layer = sparse(species, 3);
+    layer.cluster_size = cluster;
+    Patch patch(layer, plain_map(k_side, 8, k_green));
+    render(patch, from_above(14));
+    size_t blades = 0, plants = 0;
+    for (const Plant& plant : patch.plants_of_gpu()) {
+      blades += size_t(shared::tuft_blades(make_species_params(layer)[0], state_of(layer, plant)));
+      ++plants;
+    }
+    ASSERT_GT(plants, 300u);
+    EXPECT_GT(blades, 5 * plants);
+    // Of one segment a blade is one triangle.
+    EXPECT_EQ(patch.renderer().stats(true).primitives, blades) << "clusters of " << cluster;
+  }
+}
+
+TEST_F(Kinds, HeadsArePetalsNearAndDotsFar) {
+  Species species = red_flower();
+  species.max_segments = 1;
+  for (const float diameter : {0.9f, 0.02f}) {
+    species.flower.head_m = {diameter, diameter};
+    Patch patch(sparse(species, 1), plain_map(k_side, 8, k_green));
+    render(patch, from_above(14));
+    const size_t plants = patch.plants_of_gpu().size();
+    ASSERT_GT(plants, 100u);
+    // Petals: two triangles of the centre, three quads; dots: a hexagon. A stem: a quad.
+    const size_t head = diameter > 0.5f ? size_t(species.flower.petals) * 8 : 4;
+    EXPECT_EQ(patch.renderer().stats(true).primitives, plants * (head + 2)) << diameter;
+  }
+}
+
+TEST_F(Kinds, NothingIsDrawnBelowTheGround) {
+  Species hanging = red_flower();
+  hanging.stiffness = {0, 1};
+  hanging.lean = 0.8f;
+  hanging.flower.cup = -1;
+  hanging.flower.leaves = 8;
+  Species fallen = tuft(9, 9);
+  fallen.stiffness = {0, 1};
+  fallen.tuft.spread = 1.5f;
+  for (const Species& species : {hanging, fallen}) {
+    Patch patch(sparse(species, 4), plain_map(k_side, 8, k_green));
+    // From the ground itself what is below it lies below the horizon, the picture's middle.
+    const View view = View::look({8.0, -20.0, 0.0}, std::numbers::pi / 2, 0, 0.7, k_size, 0.05, 1000);
+    const Picture picture = render(patch, view);
+    size_t above = 0, below = 0;
+    for (int y = 0; y < k_size.y; ++y)
+      for (int x = 0; x < k_size.x; ++x) (y < k_size.y / 2 + 3 ? above : below) += lit(picture.at(x, y));
+    EXPECT_GT(above, 2000u);
+    EXPECT_EQ(below, 0u);
+  }
+}
+
+double light_of(const Picture& picture) {
+  double light = 0;
+  for (const uint8_t channel : picture.rgb) {
+    const double encoded = channel / 255.0;
+    light += encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+  }
+  return light;
+}
+
+/// Light of a patch seen from rising heights, times what distance takes of it: the ratio of the largest step between
+/// neighbours, as a share.
+double largest_step(Patch& patch, double low, double high, int steps) {
+  std::vector<double> light;
+  for (int i = 0; i <= steps; ++i) {
+    const double height = low * std::pow(high / low, double(i) / steps);
+    light.push_back(light_of(render(patch, from_above(height))) * height * height);
+  }
+  double step = 0;
+  for (size_t i = 1; i < light.size(); ++i) step = std::max(step, std::abs(light[i] / light[i - 1] - 1));
+  return step;
+}
+
+TEST_F(Kinds, WhatIsDrawnChangesSmoothlyWithDistance) {
+  // From petals of 20 pixels to dots of 2, from all blades to a third of them. Between two pictures lies 6 % of height.
+  Species flower = red_flower();
+  flower.stiffness = {1, 1};
+  flower.height_m = {0.05f, 0.05f};
+  flower.flower.head_m = {0.9f, 0.9f};
+  Layer flowers = sparse(flower, 0.4f);
+  flowers.full_distance_m = flowers.horizon_m = 400;
+  Species blades = tuft(6, 9);
+  blades.height_m = {0.1f, 0.2f};
+  blades.width_m = {0.08f, 0.1f};
+  blades.tuft.spread = 1.2f;
+  Layer tufts = sparse(blades, 0.5f);
+  tufts.full_distance_m = tufts.horizon_m = 400;
+  tufts.full_segments_m = 14;
+  for (const Layer& layer : {flowers, tufts}) {
+    Patch patch(layer, plain_map(k_side, 8, k_green));
+    patch.samples = std::min(4, host::RenderTarget::max_samples());
+    const bool flowering = layer.species[0].kind == PlantKind::flower;
+    EXPECT_LT(largest_step(patch, 14, flowering ? 130 : 60, flowering ? 38 : 25), 0.05) << flowering;
+  }
+}
+
+std::string cattail() {
+  std::ifstream stream(std::string(SWARD_GOLDEN) + "/../../demo/kinds/cattail.glsl");
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+Species cattail_species() {
+  Species species = grass_of("cattail", k_green);
+  species.kind = PlantKind::custom;
+  species.custom.functions = "cattail.glsl";
+  species.custom.shoots = 6;
+  species.custom.parameters = {0.7f, 0.9f, 4.0f};
+  species.max_segments = 1;
+  return species;
+}
+
+TEST_F(Kinds, AHostsOwnKindIsGrown) {
+  gl::ShaderLibrary shaders;
+  shaders.add_source("cattail.glsl", cattail());
+  Layer layer = sparse(cattail_species(), 2);
+  layer.species.push_back(bare_of("soil", k_brown));
+  Patch patch(layer, plain_map(k_side, 8, k_green), {}, shaders);
+  render(patch, from_above(14));
+  const size_t plants = patch.plants_of_gpu().size();
+  ASSERT_GT(plants, 200u);
+  // A stem that ends blunt, five pointed leaves.
+  EXPECT_EQ(patch.renderer().stats(true).primitives, plants * (2 + 5));
+}
+
+TEST_F(Kinds, AKindThatDoesNotCompileIsNamedWithItsLineAndLeavesTheRestRunning) {
+  gl::ShaderLibrary shaders;
+  shaders.add_source("cattail.glsl", cattail());
+  Patch patch(sparse(cattail_species(), 2), plain_map(k_side, 8, k_green), {}, shaders);
+  ASSERT_NE(&patch.renderer(), nullptr);
+
+  std::string text = cattail();
+  const size_t at = text.find("leaf.albedo");
+  ASSERT_NE(at, std::string::npos);
+  const int line = 1 + int(std::count(text.begin(), text.begin() + long(at), '\n'));
+  text.replace(at, 11, "leaf.no_such");
+  shaders.add_source("cattail.glsl", text);
+  const auto broken = VegetationRenderer::create(patch.layer(), shaders);
+  ASSERT_FALSE(broken);
+  const std::string& message = broken.error().message;
+  EXPECT_NE(message.find("cattail.glsl:" + std::to_string(line)), std::string::npos) << message;
+  EXPECT_NE(message.find("species 'cattail'"), std::string::npos) << message;
+  EXPECT_NE(message.find("layer '" + patch.layer().name + "'"), std::string::npos) << message;
+  take_messages();
+
+  const auto missing = VegetationRenderer::create(patch.layer(), gl::ShaderLibrary());
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find("no shader file 'cattail.glsl'"), std::string::npos)
+      << missing.error().message;
+
+  render(patch, from_above(14));
+  EXPECT_GT(patch.renderer().stats(true).primitives, 1000u);
+}
+
+TEST_F(Kinds, AFunctionThatIsMissingIsAnError) {
+  gl::ShaderLibrary shaders;
+  std::string text = cattail();
+  const size_t at = text.find("vec2 kind_shoots");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 16, "vec2 kind_shoot_");
+  shaders.add_source("cattail.glsl", text);
+  const auto broken = VegetationRenderer::create(sparse(cattail_species(), 2), shaders);
+  ASSERT_FALSE(broken);
+  EXPECT_NE(broken.error().message.find("kind_shoots"), std::string::npos) << broken.error().message;
+  take_messages();
+}
+
+}  // namespace
+}  // namespace sward
