@@ -10,7 +10,9 @@
 const vec2 k_petals_meet_px = vec2(6.0, 14.0);
 const float k_dot_px = 4.0;
 
-const int k_petal_sections = 4;
+const int k_petal_sections = 5;
+// Most that a petal's cup differs from its species'.
+const float k_cup_spread = 0.13;
 
 // Petals of a head, and its centre's radius.
 float head_petals(SpeciesParams species) { return species.own_c.z; }
@@ -21,13 +23,13 @@ float head_wedge(SpeciesParams species) { return tan(3.14159265 / head_petals(sp
 
 // Radius of a petal's section: from below the rim of the centre to the tip.
 float petal_radius(SpeciesParams species, int section) {
-  const float along[k_petal_sections] = float[k_petal_sections](0.0, 0.45, 0.82, 1.0);
+  const float along[k_petal_sections] = float[k_petal_sections](0.0, 0.35, 0.7, 0.91, 1.0);
   return mix(0.85 * head_centre(species), 1.0, along[section]);
 }
 
 // Half a petal's own width there.
 float petal_half_width(SpeciesParams species, int section) {
-  const float share[k_petal_sections] = float[k_petal_sections](0.45, 0.95, 1.0, 0.55);
+  const float share[k_petal_sections] = float[k_petal_sections](0.45, 0.84, 1.0, 0.84, 0.36);
   return min(0.75 * head_wedge(species), 0.8) * species.own_d.w * share[section];
 }
 

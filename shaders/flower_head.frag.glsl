@@ -3,15 +3,26 @@
 
 // Growth of flowers' heads: petals lit from both sides in their own colour, the centre, or the shadow on the ground.
 #include "common_strip.glsl"
+#include "common_shoot.glsl"
+
+// A petal takes on the centre's colour at its foot, has fine veins where they can be told apart, and is darker where it
+// lies under its neighbours.
+vec3 petal_albedo(SpeciesParams species, float radius, float across) {
+  float inner = species.own_c.w;
+  vec3 foot = mix(strip_color.rgb, unpack_color(species.own_d.x), 0.6);
+  vec3 albedo = mix(foot, strip_color.rgb, smoothstep(inner, 1.9 * inner + 0.02, radius));
+  float veins = 1.0 - smoothstep(0.25, 0.7, fwidth(across) * 3.0);
+  float ridge = 0.5 + 0.5 * cos(across * 21.0 + 3.0 * radius);
+  albedo *= 1.0 - 0.13 * veins * ridge;
+  return albedo * (1.0 - 0.22 * across * across * (1.0 - radius)) * mix(0.85, 1.0, smoothstep(0.1, 0.8, radius));
+}
 
 vec3 head_light() {
   SpeciesParams species = sward_layer.species[sward_species];
   float radius = strip_point.w;
   bool centre = strip_color.a > 0.5;
   Leaf leaf;
-  // Darker at the foot of a petal and along its middle; a centre is darker inside.
-  float streak = 1.0 - 0.10 * exp(-10.0 * strip_normal.w * strip_normal.w);
-  leaf.albedo = strip_color.rgb * (centre ? 0.75 + 0.5 * radius : mix(0.84, 1.0, smoothstep(0.1, 0.7, radius)) * streak);
+  leaf.albedo = centre ? strip_color.rgb * (0.7 + 0.6 * radius) : petal_albedo(species, radius, strip_normal.w);
   leaf.sky = vec3(1.0);
   leaf.sun = 1.0;
   if (centre) species.optics.x = 0.0;

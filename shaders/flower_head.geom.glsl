@@ -9,7 +9,7 @@
 #include "common_head.glsl"
 
 layout(lines, invocations = SWARD_GROWTH_INVOCATIONS) in;
-layout(triangle_strip, max_vertices = 12) out;
+layout(triangle_strip, max_vertices = 14) out;
 
 layout(location = 0) uniform int sward_species;
 
@@ -123,7 +123,7 @@ void emit_centre(Head head, vec2 along, vec2 across) {
 
 // Petals rise by the square of the radius; each by a little of its own.
 void emit_petal(Head head, vec2 along, vec2 across, float own) {
-  float cup = head.species.own_b.w + 0.25 * (own - 0.5);
+  float cup = head.species.own_b.w + 2.0 * k_cup_spread * (own - 0.5);
   for (int i = 0; i < k_petal_sections; ++i) {
     float radius = petal_radius(head.species, i);
     float wedge = radius * head_wedge(head.species);

@@ -30,6 +30,18 @@ vec3 petal_linear(SpeciesParams species, uint state, float phase) {
   return color * (0.86 + 0.2 * fract(phase * 13.7));
 }
 
+// How far petals reach below the plane of a head, in radii; `facing`: how far it looks up.
+float lowest_petal(SpeciesParams species, float facing) {
+  float cup = species.own_b.w;
+  return facing < 0.0 ? max(cup + k_cup_spread, 0.0) : max(k_cup_spread - cup, 0.0);
+}
+
+// A head at the ground (freedom 0) lies on it, one a radius above it is free.
+vec3 above_ground(vec3 axis, vec3 normal, float freedom) {
+  vec3 raised = axis - normal * (min(dot(axis, normal), 0.0) * (1.0 - freedom));
+  return normalize(mix(normal, raised, freedom * freedom) + 1.0e-4 * normal);
+}
+
 void write_head(SpeciesParams species, Seedling s) {
   Shoot stem = kind_shoot(species, s.traits, 0);
   vec2 azimuth = vec2(cos(stem.azimuth), sin(stem.azimuth));
@@ -43,10 +55,10 @@ void write_head(SpeciesParams species, Seedling s) {
   // Where plants are fewer their heads are larger, in area as blades are in width.
   float radius = 0.5 * head_diameter(species, s.traits.state) * s.presence.fade * sqrt(s.presence.widen);
   vec3 axis = head_direction(species, tangent);
-  // A head at the ground lies on it.
   float clearance = dot(normal, middle - s.root);
-  axis = normalize(mix(normal, axis, clamp(clearance / radius - 0.1, 0.0, 1.0)));
-  middle += normal * max(0.1 * radius - clearance, 0.0);
+  float need = radius * (0.1 + lowest_petal(species, dot(axis, normal)));
+  axis = above_ground(axis, normal, clamp((clearance - need) / radius, 0.0, 1.0));
+  middle += normal * max(need - clearance, 0.0);
   vec2 uv_per_m = sward_layer.layer.map.xy / sward_layer.layer.map.zw;
   float distance = max(length(middle), 1.0e-3);
   head_place[gl_InvocationID] = vec4(middle, radius);

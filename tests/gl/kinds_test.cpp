@@ -123,24 +123,28 @@ TEST_F(Kinds, HeadsStandAtTheEndsOfTheirStems) {
     species.flower.head_m = {diameter, diameter};
     Patch patch(sparse(species, 0.5f), plain_map(k_side, 8, k_green));
     patch.level = 5;
+    patch.samples = std::min(4, host::RenderTarget::max_samples());
     const View view = eye_level_view({8.0, -15.5, 1.6}, k_size, -12);
     const Picture picture = render(patch, view);
     std::vector<std::pair<glm::dvec2, double>> heads;  // pixel, largest reach in pixels
-    size_t checked = 0;
+    size_t checked = 0, missing = 0;
     for (const Plant& plant : patch.plants_of_gpu()) {
       const glm::dvec3 tip = tip_of(plant, *shapes);
-      if (tip.y - view.eye.y < 0.5) continue;
+      if (tip.y - view.eye.y < 0.1) continue;
       const glm::dvec2 pixel = pixel_of(view, tip);
       const double distance = glm::length(tip - view.eye);
-      const double reach = 0.6 * diameter * view.focal_px().y / distance;
+      // Off the picture's middle perspective stretches.
+      const double reach = 0.75 * diameter * view.focal_px().y / distance;
       heads.emplace_back(pixel, reach + 2.5);
       if (!inside(pixel, 4) || distance < 2 || distance > 12) continue;
       bool found = false;
       for (int i = 0; i < 9; ++i) found = found || red(picture.at(int(pixel.x) + i % 3 - 1, int(pixel.y) + i / 3 - 1));
-      EXPECT_TRUE(found) << diameter << " at " << pixel.x << ", " << pixel.y;
+      missing += !found;
       ++checked;
     }
     EXPECT_GE(checked, 20u);
+    // A stem of another may stand before a small head.
+    EXPECT_LE(double(missing), 0.05 * double(checked)) << diameter;
     size_t astray = 0, all = 0;
     for (int y = 0; y < k_size.y; ++y) {
       for (int x = 0; x < k_size.x; ++x) {
@@ -218,8 +222,8 @@ TEST_F(Kinds, HeadsArePetalsNearAndDotsFar) {
     render(patch, from_above(14));
     const size_t plants = patch.plants_of_gpu().size();
     ASSERT_GT(plants, 100u);
-    // Petals: two triangles of the centre, three quads; dots: a hexagon. A stem: a quad.
-    const size_t head = diameter > 0.5f ? size_t(species.flower.petals) * 8 : 4;
+    // Petals: two triangles of the centre, four quads; dots: a hexagon. A stem: a quad.
+    const size_t head = diameter > 0.5f ? size_t(species.flower.petals) * 10 : 4;
     EXPECT_EQ(patch.renderer().stats(true).primitives, plants * (head + 2)) << diameter;
   }
 }
@@ -255,40 +259,56 @@ double light_of(const Picture& picture) {
   return light;
 }
 
-/// Light of a patch seen from rising heights, times what distance takes of it: the ratio of the largest step between
-/// neighbours, as a share.
-double largest_step(Patch& patch, double low, double high, int steps) {
+struct Steadiness {
+  double largest_step = 0;  ///< Between neighbours, as a share.
+  double range = 1;         ///< Largest against least.
+};
+
+/// Light of a patch seen from rising heights, times what distance takes of it.
+Steadiness light_by_height(Patch& patch, double low, double high, int steps) {
   std::vector<double> light;
   for (int i = 0; i <= steps; ++i) {
     const double height = low * std::pow(high / low, double(i) / steps);
     light.push_back(light_of(render(patch, from_above(height))) * height * height);
   }
-  double step = 0;
-  for (size_t i = 1; i < light.size(); ++i) step = std::max(step, std::abs(light[i] / light[i - 1] - 1));
-  return step;
+  Steadiness result;
+  for (size_t i = 1; i < light.size(); ++i)
+    result.largest_step = std::max(result.largest_step, std::abs(light[i] / light[i - 1] - 1));
+  const auto [least, most] = std::minmax_element(light.begin(), light.end());
+  result.range = *most / *least;
+  return result;
 }
 
-TEST_F(Kinds, WhatIsDrawnChangesSmoothlyWithDistance) {
-  // From petals of 20 pixels to dots of 2, from all blades to a third of them. Between two pictures lies 6 % of height.
-  Species flower = red_flower();
-  flower.stiffness = {1, 1};
-  flower.height_m = {0.05f, 0.05f};
-  flower.flower.head_m = {0.9f, 0.9f};
-  Layer flowers = sparse(flower, 0.4f);
-  flowers.full_distance_m = flowers.horizon_m = 400;
-  Species blades = tuft(6, 9);
-  blades.height_m = {0.1f, 0.2f};
-  blades.width_m = {0.08f, 0.1f};
-  blades.tuft.spread = 1.2f;
-  Layer tufts = sparse(blades, 0.5f);
-  tufts.full_distance_m = tufts.horizon_m = 400;
-  tufts.full_segments_m = 14;
-  for (const Layer& layer : {flowers, tufts}) {
-    Patch patch(layer, plain_map(k_side, 8, k_green));
-    patch.samples = std::min(4, host::RenderTarget::max_samples());
-    const bool flowering = layer.species[0].kind == PlantKind::flower;
-    EXPECT_LT(largest_step(patch, 14, flowering ? 130 : 60, flowering ? 38 : 25), 0.05) << flowering;
-  }
+TEST_F(Kinds, HeadsKeepTheirAreaFromPetalsToDots) {
+  // From 18 pixels to 2, between two pictures 6 % of height.
+  Species species = red_flower();
+  species.stiffness = {1, 1};
+  species.height_m = {0.05f, 0.05f};
+  species.flower.head_m = {0.9f, 0.9f};
+  Layer layer = sparse(species, 0.4f);
+  layer.full_distance_m = layer.horizon_m = 400;
+  Patch patch(layer, plain_map(k_side, 8, k_green));
+  patch.samples = std::min(4, host::RenderTarget::max_samples());
+  const Steadiness steadiness = light_by_height(patch, 14, 130, 38);
+  EXPECT_LT(steadiness.largest_step, 0.04);
+  EXPECT_LT(steadiness.range, 1.2);
+}
+
+TEST_F(Kinds, TuftsKeepTheirAreaWithFewerBlades) {
+  // From all blades to a third of them.
+  Species species = tuft(6, 9);
+  species.height_m = {0.4f, 0.6f};
+  species.width_m = {0.1f, 0.1f};
+  species.tuft.spread = 1.2f;
+  species.max_segments = 1;
+  Layer layer = sparse(species, 0.5f);
+  layer.full_distance_m = layer.horizon_m = 1000;
+  layer.full_segments_m = 14;
+  Patch patch(layer, plain_map(k_side, 8, k_green));
+  patch.samples = std::min(4, host::RenderTarget::max_samples());
+  const Steadiness steadiness = light_by_height(patch, 14, 56, 25);
+  EXPECT_LT(steadiness.largest_step, 0.06);
+  EXPECT_LT(steadiness.range, 1.3);
 }
 
 std::string cattail() {
