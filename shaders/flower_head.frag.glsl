@@ -5,6 +5,9 @@
 #include "common_strip.glsl"
 #include "common_shoot.glsl"
 
+// Of a petal's shading, for heads too small to show any.
+const float k_mean_petal = 0.95;
+
 // A petal takes on the centre's colour at its foot, has fine veins where they can be told apart, and is darker where it
 // lies under its neighbours.
 vec3 petal_albedo(SpeciesParams species, float radius, float across) {
@@ -20,9 +23,10 @@ vec3 petal_albedo(SpeciesParams species, float radius, float across) {
 vec3 head_light() {
   SpeciesParams species = sward_layer.species[sward_species];
   float radius = strip_point.w;
-  bool centre = strip_color.a > 0.5;
+  bool centre = strip_color.a > 0.75, whole = strip_color.a > 0.25;
   Leaf leaf;
-  leaf.albedo = centre ? strip_color.rgb * (0.7 + 0.6 * radius) : petal_albedo(species, radius, strip_normal.w);
+  leaf.albedo = strip_color.rgb * (centre ? 0.7 + 0.6 * radius : k_mean_petal);
+  if (!whole) leaf.albedo = petal_albedo(species, radius, strip_normal.w);
   leaf.sky = vec3(1.0);
   leaf.sun = 1.0;
   if (centre) species.optics.x = 0.0;

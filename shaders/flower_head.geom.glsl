@@ -23,7 +23,7 @@ layout(location = 5) in vec2 petal_number[];  // of the segment's end; segments 
 layout(location = 0) out vec4 strip_point;        // relative to the eye; radius
 layout(location = 1) out vec4 strip_normal;       // towards the viewer; -1..1 across
 layout(location = 2) out vec2 strip_cover;        // share of the strip that the petal covers; height above the ground
-layout(location = 3) flat out vec4 strip_color;   // linear; 1: the centre
+layout(location = 3) flat out vec4 strip_color;   // linear; 0 petal, 0.5 all of the head, 1 centre
 layout(location = 4) flat out vec4 strip_ground;  // normal; melting
 layout(location = 5) flat out vec4 strip_self;    // base map coordinates below the eye; phase; shadow's strength or -1
 
@@ -153,7 +153,7 @@ void emit_dot(Head head) {
   const vec2 corners[6] = vec2[6](vec2(-1.0, 0.0), vec2(-0.5, -0.866025), vec2(-0.5, 0.866025), vec2(0.5, -0.866025),
                                   vec2(0.5, 0.866025), vec2(1.0, 0.0));
   for (int i = 0; i < 6; ++i) {
-    emit(head, vec3(corners[i] * size, 0.0), head.axis, corners[i].y, (areas.x + areas.y) / wedge, vec4(mean, 0.0));
+    emit(head, vec3(corners[i] * size, 0.0), head.axis, corners[i].y, (areas.x + areas.y) / wedge, vec4(mean, 0.5));
   }
   EndPrimitive();
 }
