@@ -4,12 +4,15 @@
 // What growth draws of kinds other than blades: tufts, flowers, kinds of a host's own.
 #include <sward/vegetation/blade_shape.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "gl/vegetation_fixture.h"
 #include "host/render_target.h"
 #include "vegetation/layer_params.h"
+#include "vegetation/vegetation_renderer_stages.h"
 
 namespace sward {
 namespace {
@@ -309,6 +312,28 @@ TEST_F(Kinds, TuftsKeepTheirAreaWithFewerBlades) {
   const Steadiness steadiness = light_by_height(patch, 14, 56, 25);
   EXPECT_LT(steadiness.largest_step, 0.06);
   EXPECT_LT(steadiness.range, 1.3);
+}
+
+// An independent compiler must accept what we hand to drivers.
+TEST(KindShaders, AreStrictGlsl) {
+  if (std::system("glslangValidator --version > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "glslangValidator is not installed";
+  const std::string path = testing::TempDir() + "sward_kind.";
+  for (const std::string functions : {"kind_tuft.glsl", "kind_flower.glsl"}) {
+    gl::ShaderLibrary shaders;
+    shaders.add_source("plant_kind.glsl", "#include \"" + functions + "\"\n");
+    for (const std::string file :
+         {"grow.vert.glsl", "grass_blade.tesc.glsl", "grass_blade.tese.glsl", "grass_blade.geom.glsl",
+          "grass_blade.frag.glsl", "shoot.vert.glsl", "shoot.tesc.glsl", "shoot.tese.glsl", "shoot.frag.glsl",
+          "flower_head.tesc.glsl", "flower_head.tese.glsl", "flower_head.geom.glsl", "flower_head.frag.glsl"}) {
+      const std::string stage = file.substr(file.find('.') + 1, 4);
+      const auto text = shaders.resolve(file, layer_defines(Layer(), {}));
+      ASSERT_TRUE(text) << text.error().message;
+      std::ofstream(path + stage) << text->text;
+      EXPECT_EQ(std::system(("glslangValidator " + path + stage).c_str()), 0) << file << " with " << functions;
+      std::filesystem::remove(path + stage);
+    }
+  }
 }
 
 std::string cattail() {

@@ -61,25 +61,33 @@ TEST_F(VegetationState, ClassifyLeavesWhatItSays) {
   EXPECT_GT(patch.renderer().stats(true).clusters_fertile, 0u);
 }
 
+void expect_draw_leaves_what_it_says(const Layer& layer, int samples) {
+  Patch patch(layer, plain_map(k_side, 8, k_green));
+  patch.samples = samples;
+  auto target = host::RenderTarget::create({32, 24}, samples);
+  ASSERT_TRUE(target) << target.error().message;
+  target->begin();
+  patch.look(k_view);
+  patch.classify(target->framebuffer());
+  const PoisonedState poison;
+  const GlState before = capture_state();
+  patch.draw();
+  const gl::Bindings& bindings = patch.frame().bindings();
+  GlState left = left_by_stage(bindings, {bindings.base_map, bindings.base_map_raw, bindings.triangles,
+                                          bindings.surface, bindings.blade_shape});
+  left["patch vertices"] = {1};
+  expect_only_changed(before, capture_state(), left);
+  EXPECT_GT(patch.renderer().stats(true).primitives, 0u);
+}
+
 TEST_F(VegetationState, DrawLeavesWhatItSays) {
   for (const int samples : {1, 4}) {
     if (samples > host::RenderTarget::max_samples()) continue;
-    Patch patch(grass_and_soil(), plain_map(k_side, 8, k_green));
-    patch.samples = samples;
-    auto target = host::RenderTarget::create({32, 24}, samples);
-    ASSERT_TRUE(target) << target.error().message;
-    target->begin();
-    patch.look(k_view);
-    patch.classify(target->framebuffer());
-    const PoisonedState poison;
-    const GlState before = capture_state();
-    patch.draw();
-    const gl::Bindings& bindings = patch.frame().bindings();
-    GlState left = left_by_stage(bindings, {bindings.base_map, bindings.base_map_raw, bindings.triangles,
-                                            bindings.surface, bindings.blade_shape});
-    left["patch vertices"] = {1};
-    expect_only_changed(before, capture_state(), left);
-    EXPECT_GT(patch.renderer().stats(true).primitives, 0u);
+    for (const PlantKind kind : {PlantKind::blade, PlantKind::tuft, PlantKind::flower}) {
+      Layer layer = grass_and_soil();
+      layer.species[0].kind = kind;
+      expect_draw_leaves_what_it_says(layer, samples);
+    }
   }
 }
 
