@@ -159,10 +159,9 @@ Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTer
   auto programs = build_programs(scene.layers, *library, bindings);
   if (!programs) return tl::unexpected(programs.error());
   const bool timed = gpu_can_time();
-  return SceneRenderer(std::unique_ptr<Impl>(new Impl{terrain, scene.directory, std::move(*library), bindings, scene.layers,
-                                                      std::move(*frame), std::move(*ground), std::move(*cpu),
-                                                      std::move(*programs), GpuTimer(timed), GpuTimer(timed),
-                                                      GpuTimer(timed)}));
+  return SceneRenderer(std::unique_ptr<Impl>(new Impl{
+      terrain, scene.directory, std::move(*library), bindings, scene.layers, std::move(*frame), std::move(*ground),
+      std::move(*cpu), std::move(*programs), GpuTimer(timed), GpuTimer(timed), GpuTimer(timed)}));
 }
 
 Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighting& lighting, double time_s,

@@ -73,8 +73,8 @@ void expect_draw_leaves_what_it_says(const Layer& layer, int samples) {
   const GlState before = capture_state();
   patch.draw();
   const gl::Bindings& bindings = patch.frame().bindings();
-  GlState left = left_by_stage(bindings, {bindings.base_map, bindings.base_map_raw, bindings.triangles,
-                                          bindings.surface, bindings.blade_shape});
+  GlState left = left_by_stage(
+      bindings, {bindings.base_map, bindings.base_map_raw, bindings.triangles, bindings.surface, bindings.blade_shape});
   left["patch vertices"] = {1};
   expect_only_changed(before, capture_state(), left);
   EXPECT_GT(patch.renderer().stats(true).primitives, 0u);

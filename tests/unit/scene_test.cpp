@@ -427,12 +427,12 @@ std::string with_kind(const std::string& kind, const std::string& table) {
 }
 
 TEST(Scene, KindsOfPlants) {
-  const auto scene = parse_scene(
-      with_kind("flower",
-                "flower = { petals = 5, petal_colors = [\"#ff0000\", \"#0000ff\"], petal_shares = [2, 1], "
-                "petal_width = 0.5, cup = -0.25, head_m = [0.01, 0.02], centre_color = \"#00ff00\", "
-                "centre_share = 0.5, stem_color = \"#ffffff\", leaves = 3 }"),
-      "t.toml");
+  const auto scene =
+      parse_scene(with_kind("flower",
+                            "flower = { petals = 5, petal_colors = [\"#ff0000\", \"#0000ff\"], petal_shares = [2, 1], "
+                            "petal_width = 0.5, cup = -0.25, head_m = [0.01, 0.02], centre_color = \"#00ff00\", "
+                            "centre_share = 0.5, stem_color = \"#ffffff\", leaves = 3 }"),
+                  "t.toml");
   ASSERT_TRUE(scene) << scene.error().message;
   const Species& flower = scene->layers[0].species[0];
   EXPECT_EQ(flower.kind, PlantKind::flower);
@@ -467,13 +467,31 @@ TEST(Scene, KindsOfPlants) {
 }
 
 TEST(Scene, KindsOfPlantsOutOfRange) {
-  for (const std::string entry :
-       {"petals = 2", "petals = 33", "petals = 5.5", "petal_colors = []", "petal_colors = [\"red\"]",
-        "petal_colors = \"#ff0000\"", "petal_colors = [\"#1\", \"#2\"]",
-        "petal_colors = [\"#111111\", \"#111111\", \"#111111\", \"#111111\", \"#111111\"]", "petal_shares = [-1]",
-        "petal_shares = [nan]", "petal_shares = [0]", "petal_shares = [1, 1]", "petal_width = 0", "petal_width = 2.1",
-        "cup = 2", "cup = -1.1", "head_m = [0, 1]", "head_m = [0.2, 0.1]", "head_m = 0.2", "centre_color = 3",
-        "centre_share = 0.95", "stem_color = \"#12345\"", "leaves = -1", "leaves = 9", "petal = 5"}) {
+  for (const std::string entry : {"petals = 2",
+                                  "petals = 33",
+                                  "petals = 5.5",
+                                  "petal_colors = []",
+                                  "petal_colors = [\"red\"]",
+                                  "petal_colors = \"#ff0000\"",
+                                  "petal_colors = [\"#1\", \"#2\"]",
+                                  "petal_colors = [\"#111111\", \"#111111\", \"#111111\", \"#111111\", \"#111111\"]",
+                                  "petal_shares = [-1]",
+                                  "petal_shares = [nan]",
+                                  "petal_shares = [0]",
+                                  "petal_shares = [1, 1]",
+                                  "petal_width = 0",
+                                  "petal_width = 2.1",
+                                  "cup = 2",
+                                  "cup = -1.1",
+                                  "head_m = [0, 1]",
+                                  "head_m = [0.2, 0.1]",
+                                  "head_m = 0.2",
+                                  "centre_color = 3",
+                                  "centre_share = 0.95",
+                                  "stem_color = \"#12345\"",
+                                  "leaves = -1",
+                                  "leaves = 9",
+                                  "petal = 5"}) {
     expect_error(with_kind("flower", "flower = { " + entry + " }"), 11, entry.substr(0, entry.find(' ')));
   }
   for (const std::string entry : {"blades = [0, 3]", "blades = [3, 10]", "blades = [5, 4]", "blades = 5",
@@ -552,7 +570,8 @@ TEST(Scene, BuiltInScenesAreSound) {
   EXPECT_EQ(puget->height_scale, 0.1);
   const auto missing = builtin_scene("moon");
   ASSERT_FALSE(missing);
-  EXPECT_NE(missing.error().message.find("\"moon\", expected one of \"flowers\", \"meadow\", \"puget\""), std::string::npos)
+  EXPECT_NE(missing.error().message.find("\"moon\", expected one of \"flowers\", \"meadow\", \"puget\""),
+            std::string::npos)
       << missing.error().message;
 }
 

@@ -131,29 +131,56 @@ TEST(ValidateSpecies, NamesLayerSpeciesAndFieldOutOfRange) {
 }
 
 const BadSpecies k_bad_kinds[] = {
-    {"tuft.blades.min", [](Species& s) { s.kind = PlantKind::tuft, s.tuft.blades = {0, 4}; }},
-    {"tuft.blades.max", [](Species& s) { s.kind = PlantKind::tuft, s.tuft.blades = {4, 10}; }},
-    {"tuft.blades.max is less", [](Species& s) { s.kind = PlantKind::tuft, s.tuft.blades = {4, 3}; }},
+    {"tuft.blades.min",
+     [](Species& s) {
+       s.kind = PlantKind::tuft, s.tuft.blades = {0, 4};
+     }},
+    {"tuft.blades.max",
+     [](Species& s) {
+       s.kind = PlantKind::tuft, s.tuft.blades = {4, 10};
+     }},
+    {"tuft.blades.max is less",
+     [](Species& s) {
+       s.kind = PlantKind::tuft, s.tuft.blades = {4, 3};
+     }},
     {"tuft.spread", [](Species& s) { s.kind = PlantKind::tuft, s.tuft.spread = k_nan; }},
     {"flower.petal_colors", [](Species& s) { s.kind = PlantKind::flower, s.flower.petal_colors.clear(); }},
     {"flower.petal_colors", [](Species& s) { s.kind = PlantKind::flower, s.flower.petal_colors.resize(5); }},
     {"flower.petal_colors[1]", [](Species& s) { s.kind = PlantKind::flower, s.flower.petal_colors[0].y = 1.1f; }},
-    {"flower.petal_shares", [](Species& s) { s.kind = PlantKind::flower, s.flower.petal_shares = {1, 1}; }},
+    {"flower.petal_shares",
+     [](Species& s) {
+       s.kind = PlantKind::flower, s.flower.petal_shares = {1, 1};
+     }},
     {"flower.petal_shares", [](Species& s) { s.kind = PlantKind::flower, s.flower.petal_shares = {-1}; }},
     {"flower.petal_shares are all 0", [](Species& s) { s.kind = PlantKind::flower, s.flower.petal_shares = {0}; }},
     {"flower.petals", [](Species& s) { s.kind = PlantKind::flower, s.flower.petals = 2; }},
     {"flower.petal_width", [](Species& s) { s.kind = PlantKind::flower, s.flower.petal_width = 0; }},
     {"flower.cup", [](Species& s) { s.kind = PlantKind::flower, s.flower.cup = -2; }},
-    {"flower.head_m.min", [](Species& s) { s.kind = PlantKind::flower, s.flower.head_m = {0, 1}; }},
-    {"flower.head_m.max is less", [](Species& s) { s.kind = PlantKind::flower, s.flower.head_m = {0.2f, 0.1f}; }},
+    {"flower.head_m.min",
+     [](Species& s) {
+       s.kind = PlantKind::flower, s.flower.head_m = {0, 1};
+     }},
+    {"flower.head_m.max is less",
+     [](Species& s) {
+       s.kind = PlantKind::flower, s.flower.head_m = {0.2f, 0.1f};
+     }},
     {"flower.centre_color[0]", [](Species& s) { s.kind = PlantKind::flower, s.flower.centre_color.x = -1; }},
     {"flower.centre_share", [](Species& s) { s.kind = PlantKind::flower, s.flower.centre_share = 1; }},
     {"flower.stem_color[2]", [](Species& s) { s.kind = PlantKind::flower, s.flower.stem_color.z = k_infinity; }},
     {"flower.leaves", [](Species& s) { s.kind = PlantKind::flower, s.flower.leaves = 9; }},
     {"custom.functions", [](Species& s) { s.kind = PlantKind::custom; }},
-    {"custom.shoots", [](Species& s) { s.kind = PlantKind::custom, s.custom = {"a.glsl", 13, {}}; }},
-    {"custom.parameters", [](Species& s) { s.kind = PlantKind::custom, s.custom = {"a.glsl", 1, {k_infinity}}; }},
-    {"custom.parameters", [](Species& s) { s.kind = PlantKind::custom, s.custom = {"a.glsl", 1, std::vector<float>(17)}; }},
+    {"custom.shoots",
+     [](Species& s) {
+       s.kind = PlantKind::custom, s.custom = {"a.glsl", 13, {}};
+     }},
+    {"custom.parameters",
+     [](Species& s) {
+       s.kind = PlantKind::custom, s.custom = {"a.glsl", 1, {k_infinity}};
+     }},
+    {"custom.parameters",
+     [](Species& s) {
+       s.kind = PlantKind::custom, s.custom = {"a.glsl", 1, std::vector<float>(17)};
+     }},
 };
 
 TEST(ValidateSpecies, NamesWhatIsWrongWithAKind) {

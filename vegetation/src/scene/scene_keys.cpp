@@ -224,9 +224,9 @@ Expected<void> check_flower(const toml::table& table, const FlowerShape& flower,
   const auto& shares = flower.petal_shares;
   if (shares.empty()) return {};
   if (shares.size() != flower.petal_colors.size()) {
-    return context.fail_at(*table.get("petal_shares"), "there are " + std::to_string(shares.size()) +
-                                                           " petal_shares, expected one for each of " +
-                                                           std::to_string(flower.petal_colors.size()) + " petal_colors");
+    return context.fail_at(*table.get("petal_shares"),
+                           "there are " + std::to_string(shares.size()) + " petal_shares, expected one for each of " +
+                               std::to_string(flower.petal_colors.size()) + " petal_colors");
   }
   if (std::all_of(shares.begin(), shares.end(), [](float share) { return share == 0; })) {
     return context.fail_at(*table.get("petal_shares"), "petal_shares are all 0, expected at least one that is more");

@@ -142,7 +142,8 @@ void check_custom(const CustomKind& custom, Check& check) {
   check.require(custom.parameters.size() <= size_t(k_most_parameters),
                 "custom.parameters: there are " + std::to_string(custom.parameters.size()) + " but at most 16 fit");
   for (const float parameter : custom.parameters)
-    check.within("custom.parameters", parameter, std::numeric_limits<float>::lowest(), std::numeric_limits<float>::max());
+    check.within("custom.parameters", parameter, std::numeric_limits<float>::lowest(),
+                 std::numeric_limits<float>::max());
 }
 
 void check_kind(const Species& species, Check& check) {

@@ -101,8 +101,7 @@ Expected<GrowthStage> GrowthStage::create(const Layer& layer, const gl::ShaderLi
   GrowthStage stage;
   stage.draws_in_parts_ = gl::software_renderer();
   for (const Species& species : layer.species) {
-    if (auto added = stage.add_species(layer, species, shaders, bindings); !added)
-      return tl::unexpected(added.error());
+    if (auto added = stage.add_species(layer, species, shaders, bindings); !added) return tl::unexpected(added.error());
   }
   auto shapes = make_blade_shapes();
   if (!shapes) return tl::unexpected(shapes.error());

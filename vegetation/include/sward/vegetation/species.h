@@ -14,9 +14,9 @@ namespace sward {
 enum class PlantKind : uint32_t {
   none,   ///< Bare ground: soil, rock, snow. Competes for clusters, grows nothing.
   blade,  ///< A blade of grass.
-  tuft,   ///< Blades fanned out from one root: Species::tuft.
-  flower, ///< A stem with a head at its end: Species::flower.
-  custom, ///< A host's own, made of shoots by its GLSL functions: Species::custom.
+  tuft,    ///< Blades fanned out from one root: Species::tuft.
+  flower,  ///< A stem with a head at its end: Species::flower.
+  custom,  ///< A host's own, made of shoots by its GLSL functions: Species::custom.
 };
 
 struct FloatRange {
@@ -40,12 +40,12 @@ struct FlowerShape {
   int petals = 13;                  ///< 3..32.
   float petal_width = 1.0f;         ///< 1: neighbours nearly meet; 0.1..2.
   float cup = 0.15f;                ///< How far petals rise: 0 flat, 1 a bowl as deep as its radius, < 0 hang; -1..1.5.
-  FloatRange head_m{0.03f, 0.045f}; ///< Diameter, metres, 0.001..10.
+  FloatRange head_m{0.03f, 0.045f};  ///< Diameter, metres, 0.001..10.
   glm::vec3 centre_color{0.92f, 0.72f, 0.12f};
-  float centre_share = 0.3f;        ///< Radius of the centre against the head's, 0..0.9.
-  bool own_stem = false;            ///< Stem and leaves have stem_color, else the ground's as grass has.
+  float centre_share = 0.3f;  ///< Radius of the centre against the head's, 0..0.9.
+  bool own_stem = false;      ///< Stem and leaves have stem_color, else the ground's as grass has.
   glm::vec3 stem_color{0.36f, 0.48f, 0.22f};
-  int leaves = 0;                   ///< At the foot of the stem, 0..8.
+  int leaves = 0;  ///< At the foot of the stem, 0..8.
 };
 
 /// Of PlantKind::custom.
@@ -53,8 +53,9 @@ struct CustomKind {
   /// Name of a file of GLSL functions in the renderer's ShaderLibrary (see shaders/common_shoot.glsl for what it must
   /// define). Not empty.
   std::string functions;
-  int shoots = 1;                 ///< Most shoots that kind_shoots answers, 1..12.
-  std::vector<float> parameters;  ///< At most 16, finite; functions find them in own_a..own_d of SpeciesParams, 0 where missing.
+  int shoots = 1;  ///< Most shoots that kind_shoots answers, 1..12.
+  /// At most 16, finite; functions find them in own_a..own_d of SpeciesParams, 0 where missing.
+  std::vector<float> parameters;
 };
 
 /// A reference colour, placement rules and growth parameters (Papavasiliou 2015, section 3.3).
@@ -87,7 +88,7 @@ struct Species {
   float specular = 0.12f;               ///< k_s of equation 14, >= 0.
   float shininess = 24.0f;              ///< n of equation 14, >= 1.
 
-  TuftShape tuft;      ///< Read for kind tuft alone, the next for flower and custom.
+  TuftShape tuft;  ///< Read for kind tuft alone, the next for flower and custom.
   FlowerShape flower;
   CustomKind custom;
 };
@@ -121,7 +122,7 @@ struct Layer {
 inline constexpr int k_max_species = 64;  ///< In one layer.
 inline constexpr int k_max_cluster_size = 32;
 inline constexpr int k_density_bins = 32;
-inline constexpr int k_most_shoots = 12;  ///< Of a plant; a patch of tessellation has 64 lines for all plants of a cluster.
+inline constexpr int k_most_shoots = 12;  ///< Lines of a plant of a kind made of shoots.
 inline constexpr int k_most_petal_colors = 4;
 inline constexpr int k_most_parameters = 16;
 
