@@ -134,12 +134,14 @@ void emit_petal(Head head, vec2 along, vec2 across, float own) {
     vec3 outwards = head.right * along.x + head.ahead * along.y;
     vec3 sideways = head.right * across.x + head.ahead * across.y;
     vec3 normal = normalize(head.axis - 2.0 * cup * radius * outwards);
+    // At last all are alike, for the mean.
+    vec4 color = vec4(petal_color[0].rgb * mix(0.86 + 0.28 * own, 1.0, head.met), 0.0);
     float height = cup * radius * radius + 0.04 * own;
     // Edges bend up a little: a petal is a shallow trough.
     emit(head, vec3(along * radius - across * drawn, height + 0.1 * width), normalize(normal + 0.3 * sideways), -1.0, cover,
-         vec4(petal_color[0].rgb, 0.0));
+         color);
     emit(head, vec3(along * radius + across * drawn, height + 0.1 * width), normalize(normal - 0.3 * sideways), 1.0, cover,
-         vec4(petal_color[0].rgb, 0.0));
+         color);
   }
   EndPrimitive();
 }

@@ -19,10 +19,11 @@ layout(location = 3) out vec4 head_color[];  // petals', linear; pixels across
 layout(location = 4) out vec4 head_map[];    // base map coordinates below the eye; phase; distance
 layout(location = 5) patch out uint head_slots[(SWARD_CLUSTER_SIZE + 3) / 4];  // plant of each line, 8 bits each
 
-// Up, along the stem's end, and towards a risen sun as far as the species turns to it.
-vec3 head_direction(SpeciesParams species, vec3 tangent) {
+// Up, along the stem's end, a little aside, and towards a risen sun as far as the species turns to it.
+vec3 head_direction(SpeciesParams species, vec3 tangent, float turn) {
   vec3 sun = frame.sun_direction.xyz * (frame.sun_direction.w * species.posture.w);
-  return normalize(0.8 * tangent + 0.45 * frame.up.xyz + 1.1 * sun);
+  vec3 own = 0.3 * vec3(cos(turn), sin(turn), 0.0);
+  return normalize(0.8 * tangent + 0.45 * frame.up.xyz + own + 1.1 * sun);
 }
 
 vec3 petal_linear(SpeciesParams species, uint state, float phase) {
@@ -54,7 +55,7 @@ void write_head(SpeciesParams species, Seedling s) {
 
   // Where plants are fewer their heads are larger, in area as blades are in width.
   float radius = 0.5 * head_diameter(species, s.traits.state) * s.presence.fade * sqrt(s.presence.widen);
-  vec3 axis = head_direction(species, tangent);
+  vec3 axis = head_direction(species, tangent, 6.2831853 * fract(s.traits.phase * 5.618));
   float clearance = dot(normal, middle - s.root);
   float need = radius * (0.1 + lowest_petal(species, dot(axis, normal)));
   axis = above_ground(axis, normal, clamp((clearance - need) / radius, 0.0, 1.0));
