@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 
-// What a flower's head looks like from near and from far. In units of the head's radius; petals are strips along it. Far
-// away petals widen until they meet, with as much less coverage: the head becomes a disc of the same lit area, and at
-// last a dot of its mean colour. GLSL only.
+// What a flower's head looks like from near and from far. In units of the head's radius; petals are strips along it.
+// Far away petals widen until they meet, with as much less coverage: the head becomes a disc of the same lit area, and
+// at last a dot of its mean colour. GLSL only.
 #include "common_shoot.glsl"
 
 // Across a head, pixels: petals are themselves above .y and have met below .x; below the last number it is a dot.

@@ -1,8 +1,9 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 
-// Kinds made of shoots: plants of one or more bent lines from one root, each grown by the stages shoot.*.glsl. A kind is
-// a file with four functions; sward's own are kind_tuft.glsl and kind_flower.glsl, a host registers its own. GLSL only.
+// Kinds made of shoots: plants of one or more bent lines from one root, each grown by the stages shoot.*.glsl. A kind
+// is a file with four functions; sward's own are kind_tuft.glsl and kind_flower.glsl, a host registers its own. GLSL
+// only.
 //
 //   vec2 kind_shoots(SpeciesParams species, PlantTraits traits, float ratio)
 //     How many shoots the plant shows (0..SWARD_MOST_SHOOTS; of a fraction the last has that share of its width), and a

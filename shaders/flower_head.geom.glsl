@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 
-// Growth of flowers' heads: a segment becomes a petal with its wedge of the centre, or a dot; the second invocation lays
-// the shadow of that on the ground's plane.
+// Growth of flowers' heads: a segment becomes a petal with its wedge of the centre, or a dot; the second invocation
+// lays the shadow of that on the ground's plane.
 #include "common_frame.glsl"
 #include "common_layer.glsl"
 #include "common_visible.glsl"
@@ -138,10 +138,10 @@ void emit_petal(Head head, vec2 along, vec2 across, float own) {
     vec4 color = vec4(petal_color[0].rgb * mix(0.86 + 0.28 * own, 1.0, head.met), 0.0);
     float height = cup * radius * radius + 0.04 * own;
     // Edges bend up a little: a petal is a shallow trough.
-    emit(head, vec3(along * radius - across * drawn, height + 0.1 * width), normalize(normal + 0.3 * sideways), -1.0, cover,
-         color);
-    emit(head, vec3(along * radius + across * drawn, height + 0.1 * width), normalize(normal - 0.3 * sideways), 1.0, cover,
-         color);
+    emit(head, vec3(along * radius - across * drawn, height + 0.1 * width), normalize(normal + 0.3 * sideways), -1.0,
+         cover, color);
+    emit(head, vec3(along * radius + across * drawn, height + 0.1 * width), normalize(normal - 0.3 * sideways), 1.0,
+         cover, color);
   }
   EndPrimitive();
 }
