@@ -60,6 +60,7 @@ class Stage {
     cut_.level = sward::level_for_area(terrain.field->lattice(), layer.triangle_area_m2);
     cut_.canopy_m = sward::canopy_height(layer);
     cut_.horizon_m = layer.horizon_m;
+    cut_.skip_back_faces = layer.plain;
   }
 
   Frame show(const sward::View& view, const sward::ColorMap& map, double time_s) {

@@ -155,6 +155,8 @@ struct FixedLevelOptions {
   int level = 24;         ///< Bintree level to emit.
   float horizon_m = 100;  ///< 3-D distance from the eye beyond which nothing is emitted.
   float canopy_m = 1;     ///< Height of what grows on it, for culling.
+  /// Leave out ground whose plane is more than canopy_m above the eye. Cheaper; but what stands upright shows its tips
+  /// over the edge of ground that has just turned away, and vanishes with it.
   bool skip_back_faces = true;
   int threads = 0;  ///< At most so many work on it, the calling one included; 0: one a core. Small sets stay on
                     ///< the calling thread, and the result is the same whatever the number.
