@@ -13,6 +13,7 @@ struct SpeciesParams {
   vec4 age_tint;    // rgb; brightness at the root
   vec4 optics;      // translucency, attenuation, specular, shininess
   vec4 kind;        // 1: grows, 0: bare; 1: forbids; most segments; unused
+  vec4 habit;       // bare share of the height, taper of the crown; leaves; unused
 };
 
 struct LayerParams {

@@ -6,6 +6,7 @@
 #include "common_frame.glsl"
 #include "common_layer.glsl"
 #include "common_visible.glsl"
+#include "common_shadow_projection.glsl"
 
 layout(lines, invocations = SWARD_GROWTH_INVOCATIONS) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -28,8 +29,6 @@ layout(location = 5) flat out vec4 strip_self;    // base map coordinates below 
 const float k_least_half_width_px = 0.6;
 // A blade seen from its edge shows at least this share of its width: blades are not flat.
 const float k_edge_share = 0.35;
-// Shadows lie this much of their distance before the ground, so that depth tells them apart.
-const float k_shadow_lift = 0.0012;
 
 float least_half_width(float distance) { return k_least_half_width_px * distance / frame.focal.y; }
 
@@ -96,17 +95,6 @@ Section blade_section(int i, vec3 flat_side) {
 
 void emit_blade(Plant plant) {
   emit_strip(plant, blade_section(0, plant.flat_side), blade_section(1, plant.flat_side), 0.5);
-}
-
-// Where the light through a point above the plane meets it, as a matrix for directions. Low suns are cut to the longest
-// shadow.
-mat3 shadow_projection(vec3 plane) {
-  vec3 sun = frame.sun_direction.xyz;
-  float facing = dot(plane, sun);
-  vec3 level = sun - plane * facing;
-  float reach = min(length(level) / facing, k_longest_shadow);
-  vec3 slide = reach * level / max(length(level), 1.0e-4);
-  return mat3(1.0) - outerProduct(plane + slide, plane);
 }
 
 void emit_shadow(Plant plant) {

@@ -37,6 +37,7 @@ shared::SpeciesParams make_params(const Species& s) {
   params.age_tint = {s.age_tint, s.root_shade};
   params.optics = {s.translucency, s.attenuation, s.specular, s.shininess};
   params.kind = {s.kind == PlantKind::none ? 0.0f : 1.0f, s.forbids ? 1.0f : 0.0f, float(s.max_segments), 0.0f};
+  params.habit = {s.trunk_share, s.taper, float(s.leaves), 0.0f};
   return params;
 }
 

@@ -23,8 +23,8 @@ struct SpeciesBlock {
   std::array<shared::SpeciesParams, k_max_species> species{};
 };
 static_assert(sizeof(shared::LayerParams) == 4 * 16);
-static_assert(sizeof(shared::SpeciesParams) == 8 * 16);
-static_assert(sizeof(SpeciesBlock) == 4 * 16 + k_max_species * 8 * 16);
+static_assert(sizeof(shared::SpeciesParams) == 9 * 16);
+static_assert(sizeof(SpeciesBlock) == 4 * 16 + k_max_species * 9 * 16);
 
 /// A frame's triangle records and surface nodes: one buffer of three regions written in turn, so that a write never
 /// meets a frame that the GPU still reads; two buffer textures look at the region written last.

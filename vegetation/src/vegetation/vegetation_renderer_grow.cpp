@@ -18,9 +18,17 @@ struct KindProgram {
   PlantKind kind;
   const char *name, *vertex, *tess_control, *tess_evaluation, *geometry, *fragment;
 };
-constexpr std::array<KindProgram, 1> k_kinds{{
+constexpr std::array<KindProgram, 6> k_kinds{{
     {PlantKind::blade, "grass_blade", "grow.vert.glsl", "grass_blade.tesc.glsl", "grass_blade.tese.glsl",
      "grass_blade.geom.glsl", "grass_blade.frag.glsl"},
+    {PlantKind::gravel, "gravel", "grow.vert.glsl", "gravel.tesc.glsl", "gravel.tese.glsl", "gravel.geom.glsl",
+     "gravel.frag.glsl"},
+    {PlantKind::leaf, "leaf", "grow.vert.glsl", "leaf.tesc.glsl", "leaf.tese.glsl", "leaf.geom.glsl", "leaf.frag.glsl"},
+    {PlantKind::fern, "fern", "grow.vert.glsl", "leaf.tesc.glsl", "leaf.tese.glsl", "leaf.geom.glsl", "fern.frag.glsl"},
+    {PlantKind::litter, "litter", "grow.vert.glsl", "litter.tesc.glsl", "litter.tese.glsl", "litter.geom.glsl",
+     "litter.frag.glsl"},
+    {PlantKind::billboard, "billboard", "grow.vert.glsl", "billboard.tesc.glsl", "billboard.tese.glsl",
+     "billboard.geom.glsl", "billboard.frag.glsl"},
 }};
 
 size_t row_of(PlantKind kind) {
@@ -35,11 +43,11 @@ void attach_shapes(const BladeShapes& shapes, gl::Buffer& buffer, gl::Texture& t
   glTextureBuffer(texture.id(), GL_RGBA32F, buffer.id());
 }
 
-/// Mesa's software tessellator numbers the points of a draw with 16 bits: beyond that, lines are drawn again in place of
-/// those that follow. The most clusters of a species whose points still have a number each; odd spacing adds up to two
-/// segments, a line one point.
+/// Mesa's software tessellator numbers the points of a draw with 16 bits: beyond that, lines are drawn again in place
+/// of those that follow. The most clusters of a species whose points still have a number each; odd spacing adds up to
+/// two segments, a line one point. No kind has lines of less than three segments near by.
 GLsizei part_of(const Layer& layer, const Species& species) {
-  const int points = layer.cluster_size * (species.max_segments + 3);
+  const int points = layer.cluster_size * (std::max(species.max_segments, 3) + 3);
   return std::max(0xffff / points, 1);
 }
 

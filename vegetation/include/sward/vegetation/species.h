@@ -14,6 +14,11 @@ namespace sward {
 enum class PlantKind : uint32_t {
   none,   ///< Bare ground: soil, rock, snow. Competes for clusters, grows nothing.
   blade,  ///< A blade of grass.
+  gravel,     ///< A faceted stone, a third of it in the ground.
+  leaf,       ///< A rosette of broad leaves.
+  fern,       ///< A rosette of fronds.
+  litter,     ///< A dead leaf or a twig, flat on the ground.
+  billboard,  ///< A shrub or a tree: a trunk and clusters of leaves that face the eye.
 };
 
 struct FloatRange {
@@ -49,6 +54,9 @@ struct Species {
   float attenuation = 0.4f;             ///< alpha of equation 13, >= 0.
   float specular = 0.12f;               ///< k_s of equation 14, >= 0.
   float shininess = 24.0f;              ///< n of equation 14, >= 1.
+  int leaves = 6;                       ///< Kinds leaf and fern: leaves or fronds of a plant, 1..8.
+  float trunk_share = 0.3f;             ///< Kind billboard: share of the height below the crown, 0..0.9; 0: a shrub.
+  float taper = 0.0f;                   ///< Kind billboard: crown's outline from 0, an ellipse, to 1, a cone.
 };
 
 enum class DensityLaw : uint32_t {
