@@ -55,7 +55,7 @@ float object_cover(bool shadow) {
   float footprint = max(fwidth(at.x), fwidth(at.y));
   float fine = 1.0 - smoothstep(0.45, 1.0, footprint * leaves);
   float coarse = 1.0 - smoothstep(0.45, 1.0, footprint * k_sprays);
-  float cover = 1.0 - smoothstep(0.55, 0.98, radius);
+  float cover = mix(1.0 - smoothstep(0.55, 0.98, radius), 0.5, smoothstep(0.4, 1.2, footprint));
   LeafHit spray = found_leaf;
   if (coarse > 0.0 && fine < 1.0) {
     spray = find_leaf(at, k_sprays, 2.0 * footprint * k_sprays);

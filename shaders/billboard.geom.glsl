@@ -14,7 +14,7 @@ layout(triangle_strip, max_vertices = 4) out;
 layout(location = 0) uniform int sward_species;
 
 const float k_trunk_part = 1000.0;  // number of the trunk
-const float k_overlap = 1.9;        // area of all clusters against the crown's outline
+const float k_overlap = 2.1;        // area of all clusters against the crown's outline
 
 struct Tree {
   Object object;
@@ -67,12 +67,14 @@ Cluster3 leaf_cluster(Tree t, uint i) {
   c.place = vec3(cos(turn) * depth, sin(turn) * depth, (2.0 * up - 1.0) * 0.84);
   float most = max(t.species.kind.z, 1.0);
   float merged = clamp((most - t.clusters) / max(most - 1.0, 1.0), 0.0, 1.0);
-  // One cluster alone is the crown.
-  float share = mix(k_overlap, 1.0, merged * merged) / t.clusters;
+  // One cluster alone is the crown; two or three come near to it.
+  float together = pow(merged, 12.0);
+  // The last cluster, partly grown, covers less than its part.
+  float whole = floor(t.clusters), last = t.clusters - whole;
+  float share = mix(k_overlap, 1.3, together) / (whole + last * last);
   float shown = clamp(t.clusters - float(i), 0.0, 1.0);
   float size = sqrt(share) * shown * mix(1.0, 0.62 + 0.6 * (1.0 - up), taper * (1.0 - merged)) *
                mix(0.85, 1.15, own_number(o, 3u * i + 43u));
-  float together = merged * merged * merged * merged;
   c.place *= 1.0 - together;
   vec2 crown = t.half_size.xz;
   c.leaves = sqrt(k_overlap / most * crown.x * crown.y);
@@ -182,7 +184,7 @@ void emit_trunk_shadow(Tree t, float strength) {
 
 void main() {
   Tree t = this_tree();
-  int piece = int(floor(t.object.first * line_self[0].w + 0.5));
+  int piece = int(floor(t.object.first * ceil(line_self[0].w) + 0.5));
   if (float(piece) >= t.clusters + 1.0) return;
   if (gl_InvocationID == 0) {
     if (piece == 0) emit_trunk(t);

@@ -32,13 +32,16 @@ vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   vec3 stone = mix(ground, vec3(dot(ground, vec3(0.2126, 0.7152, 0.0722))), mix(0.05, 0.55, warmth));
   stone *= mix(species.tint.rgb, species.age_tint.rgb, part_color.w) * mix(0.85, 1.75, own * own);
   stone *= grain(part_point.xyz);
+  // Light from the ground next to it warms the sides.
+  vec3 bounce = 0.35 * ground * sun_light() * max(frame.sun_direction.z, 0.0);
   vec3 normal = normalize(part_normal.xyz);
   vec3 sun = frame.sun_direction.xyz;
   float open = mix(species.age_tint.w, 1.0, smoothstep(-0.1, 0.35, part_point.w / max(part_normal.w, 1.0e-3)));
   float facing = max(dot(normal, sun), 0.0);
   float gloss = pow(max(dot(to_eye, reflect(-sun, normal)), 0.0), species.optics.w);
   float shine = facing > 0.0 ? 0.25 * species.optics.z * gloss : 0.0;
-  return ambient(normal) * stone * open + sun_light() * mix(open, 1.0, 0.5) * (stone * facing + vec3(shine));
+  float low = 0.5 - 0.5 * dot(normal, part_ground.xyz);
+  return (ambient(normal) * open + bounce * low) * stone + sun_light() * mix(open, 1.0, 0.5) * (stone * facing + vec3(shine));
 }
 
 void main() { shade_part(); }

@@ -12,6 +12,7 @@ layout(triangle_strip, max_vertices = 19) out;
 // The stone's heights in shares of its own: it is sunk by a third.
 const float k_foot = -0.3333333;
 const float k_top = 0.6666667;
+const float k_least_sides = 5.0;
 
 struct Stone {
   Object object;
@@ -20,7 +21,17 @@ struct Stone {
   float flatten;  // width across the azimuth against width along it
   float grown;    // inflation of what is smaller than a pixel
   float cover;
+  float round;
 };
+
+// Factor on the radius that gives a ring of `level` corners (fractional odd spacing: two sides of it are shorter) the
+// area of a circle.
+float rounding(float level) {
+  float sides = 2.0 * ceil(0.5 * (level - 1.0)) + 1.0;
+  float shorter = 0.5 * (1.0 - (sides - 2.0) / level);
+  float area = (sides - 2.0) * sin(6.2831853 / level) + 2.0 * sin(6.2831853 * shorter);
+  return sqrt(6.2831853 / max(area, 1.0));
+}
 
 Stone this_stone() {
   Stone s;
@@ -31,6 +42,7 @@ Stone this_stone() {
   float size = pixels(s.object, s.object.width);
   s.grown = inflation(size);
   s.cover = cover_small(size);
+  s.round = rounding(max(line_self[0].w, k_least_sides));
   return s;
 }
 
@@ -47,7 +59,7 @@ vec3 place(Stone s, vec2 level, float up) {
 }
 
 vec3 on_ring(Stone s, float angle, float radius, float up, float ring) {
-  return place(s, radius * push(s, angle, ring) * vec2(cos(angle), sin(angle)), up);
+  return place(s, radius * s.round * push(s, angle, ring) * vec2(cos(angle), sin(angle)), up);
 }
 
 vec3 foot(Stone s, float angle) { return on_ring(s, angle, 0.72, k_foot, 0.0); }
@@ -111,8 +123,8 @@ void emit_dot(Stone s) {
   vec3 centre = o.root + o.plane * (0.3 * o.height * (1.0 - above));
   vec3 normal = o.plane + 0.6 * to_eye;
   Part part = Part(vec2(0.5), s.cover, 0.0, k_part_object, 0.3 * o.height);
-  // A diamond of the same area as the ellipse.
-  float wider = 1.2533;
+  // A diamond of about the area of what it stands for.
+  float wider = 1.17;
   emit(o, part, centre - right * half_width * wider, normal);
   emit(o, part, centre - up * half_height * wider, normal);
   emit(o, part, centre + up * half_height * wider, normal);

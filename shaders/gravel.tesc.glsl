@@ -13,5 +13,5 @@ float object_parts(SpeciesParams species, float distance, float size_px) {
   if (size_px < k_dot_px) return 1.0;
   // Facets of about four pixels.
   float wanted = min(0.8 * size_px, segment_count(species, sward_layer.layer, distance));
-  return max(wanted, 3.0);
+  return max(wanted, 5.0);
 }

@@ -45,9 +45,9 @@ void attach_shapes(const BladeShapes& shapes, gl::Buffer& buffer, gl::Texture& t
 
 /// Mesa's software tessellator numbers the points of a draw with 16 bits: beyond that, lines are drawn again in place
 /// of those that follow. The most clusters of a species whose points still have a number each; odd spacing adds up to
-/// two segments, a line one point. No kind has lines of less than three segments near by.
+/// two segments, a line one point. No kind has lines of less than five segments near by.
 GLsizei part_of(const Layer& layer, const Species& species) {
-  const int points = layer.cluster_size * (std::max(species.max_segments, 3) + 3);
+  const int points = layer.cluster_size * (std::max(species.max_segments, 5) + 3);
   return std::max(0xffff / points, 1);
 }
 
