@@ -206,18 +206,18 @@ TEST_F(Kinds, LeavesStayOutOfTheGroundOnSlopes) {
     Layer layer = few_of(kind, 6);
     layer.species[0].height_m = {0.5f, 0.5f};
     layer.species[0].width_m = {0.1f, 0.1f};
-    layer.species[0].stiffness = {0.4f, 0.4f};
-    layer.species[0].lean = 0.6f;
+    layer.species[0].stiffness = {0.25f, 0.25f};
+    layer.species[0].lean = 0.8f;
     Patch patch(layer, plain_map(k_side, 8, k_green));
     patch.level = 3;
-    const double slope = 0.5, distance = 5, fov = 14 * k_degree;
+    const double slope = 0.8, distance = 5, fov = 14 * k_degree;
     const Plant plant = loneliest(plants_on(patch, slope));
     const Picture picture = render(patch, along_contour(plant, distance, fov), slope);
-    ASSERT_GT(picture.lit(), 60u);
+    ASSERT_GT(picture.lit(), 50u);
     const Reach reach = reach_of(picture, distance, fov, slope, 0.6);
     // Midribs lie on the ground at the lowest, their edges may dip by half a leaf's width.
     EXPECT_GT(reach.low, -0.06);
-    EXPECT_GT(reach.high, 0.1);
+    EXPECT_GT(reach.high, 0.06);
   }
 }
 
@@ -361,17 +361,16 @@ TEST_F(Kinds, PlacesAndTraitsAreTheTwins) {
 }
 
 TEST_F(Kinds, EveryStoneIsDrawnHoweverManyPointsADrawHas) {
-  // Stones have five sides at least, whatever `segments` says: more points than 16 bits can number.
-  size_t covered[2];
+  // Stones have five sides at least, whatever `segments` says: more points than 16 bits can number, the same picture.
+  Picture pictures[2];
   for (const int i : {0, 1}) {
     Layer layer = stones(12000);
-    layer.species[0].width_m = {0.1f, 0.1f};
     layer.species[0].max_segments = i == 0 ? 1 : 5;
     Patch patch(layer, plain_map(k_side, 8, k_green));
-    covered[i] = render(patch, from_above(14)).lit();
+    pictures[i] = render(patch, from_above(14));
     ASSERT_GT(patch.plants_of_gpu().size(), 10000u);
   }
-  EXPECT_EQ(covered[0], covered[1]);
+  EXPECT_EQ(pictures[0].rgb, pictures[1].rgb);
 }
 
 TEST_F(Kinds, ShadowsAreCastByEveryKind) {
