@@ -52,7 +52,7 @@ float object_cover(bool shadow) {
   if (shadow) return 0.85 * (1.0 - smoothstep(0.35, 1.0, radius));
   // Leaves, sprays of leaves, and their mean, each while it is larger than a pixel.
   float leaves = clamp((-1.0 - part_self.w) / k_leaf_m, 4.0, 18.0);
-  float footprint = max(fwidth(at.x), fwidth(at.y));
+  float footprint = max(part_footprint.x, part_footprint.y);
   float fine = 1.0 - smoothstep(0.45, 1.0, footprint * leaves);
   float coarse = 1.0 - smoothstep(0.45, 1.0, footprint * k_sprays);
   float cover = mix(1.0 - smoothstep(0.55, 0.98, radius), 0.5, smoothstep(0.4, 1.2, footprint));
@@ -74,7 +74,7 @@ float object_cover(bool shadow) {
 vec3 bark_radiance(vec3 normal) {
   float light = dot(part_color.rgb, vec3(0.2126, 0.7152, 0.0722));
   vec2 place = vec2(asin(clamp(part_mask.x, -1.0, 1.0)) + 40.0 * part_self.z, 9.0 * part_mask.y);
-  float rough = 1.0 + 0.8 * ground_noise(place, 2.0, 31u).x * (1.0 - smoothstep(0.1, 0.4, fwidth(place.x)));
+  float rough = 1.0 + 0.8 * ground_noise(place, 2.0, 31u).x * (1.0 - smoothstep(0.1, 0.4, 2.0 * part_footprint.x));
   vec3 bark = rough * light * vec3(0.80, 0.66, 0.52) * mix(0.7, 1.1, fract(part_self.z * 19.3));
   float facing = max(dot(normal, frame.sun_direction.xyz), 0.0);
   float open = mix(0.75, 0.35, clamp(part_mask.y * 2.0, 0.0, 1.0));
@@ -98,5 +98,3 @@ vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   vec3 own = normalize(normal + vec3(tilt, 0.3 * (number - 0.5)));
   return shade_leaf(species, leaf, own, to_eye);
 }
-
-void main() { shade_part(); }

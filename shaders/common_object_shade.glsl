@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 
-// Growth of single objects, fragments: coverage, shadows and the dark ground at the foot. The kind's file defines the two
-// functions declared here and calls shade_part from its main. GLSL only.
+// Growth of single objects, fragments: coverage, shadows, the dark ground at the foot. The kind's file defines the two
+// functions declared here; main is here. GLSL only.
 #include "common_leaf.glsl"
 #include "common_ground_shadow.glsl"
 #include "common_cover.glsl"
@@ -23,9 +23,11 @@ const float k_contact_light = 0.45;  // share of the light at an object's foot
 // The object's radiance before haze, at this fragment.
 vec3 object_radiance(SpeciesParams species, vec3 to_eye);
 
-// Share of this fragment that the object or its shadow covers, before the part's own coverage; called in uniform control
-// flow, so that it may use derivatives.
+// Share of this fragment that the object or its shadow covers, before the part's own coverage.
 float object_cover(bool shadow);
+
+// Change of the part's own coordinates from pixel to pixel, taken before anything is discarded.
+vec2 part_footprint;
 
 vec3 ground_radiance() {
   float what = part_self.w;
@@ -51,8 +53,9 @@ float part_pattern(vec2 place, float footprint) {
   return hash_unit(uvec2(uint(cell.x) + own, uint(cell.y)));
 }
 
-void shade_part() {
-  float footprint = max(max(fwidth(part_mask.x), fwidth(part_mask.y)), 1.0e-4);
+void main() {
+  part_footprint = max(fwidth(part_mask.xy), vec2(1.0e-4));
+  float footprint = max(part_footprint.x, part_footprint.y);
   float cover = object_cover(part_self.w >= 0.0) * part_mask.z;
   int mask = k_all_samples;
   float pattern = part_pattern(part_mask.xy, footprint);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // Growth of ferns: leaflets left and right of a rib, shorter towards the tip and the stalk.
-#include "common_object_shade.glsl"
+#include "common_rosette.glsl"
 
 const float k_leaflets = 19.0;
 
@@ -18,7 +18,7 @@ float across_leaflet() { return 2.0 * fract(part_mask.y * k_leaflets - abs(part_
 float object_cover(bool shadow) {
   float x = abs(part_mask.x), s = part_mask.y;
   float width = max(outline(s), 1.0e-3);
-  float soft_x = max(fwidth(part_mask.x), 1.0e-3), soft_s = max(fwidth(s) * k_leaflets, 1.0e-3);
+  float soft_x = max(part_footprint.x, 1.0e-3), soft_s = max(part_footprint.y * k_leaflets, 1.0e-3);
   float rest = x / width;
   // Leaflets are pointed, their edges toothed.
   float thick = 0.9 * sqrt(max(1.0 - rest * rest, 0.0)) * (0.9 + 0.1 * sin(rest * 40.0));
@@ -31,17 +31,6 @@ float object_cover(bool shadow) {
 
 // Leaflets arch, so that one side of each is brighter.
 float relief() {
-  float fine = 1.0 - smoothstep(0.3, 0.9, fwidth(part_mask.y) * k_leaflets);
+  float fine = 1.0 - smoothstep(0.3, 0.9, part_footprint.y * k_leaflets);
   return 1.0 + 0.22 * fine * across_leaflet() + 0.12 * exp(-900.0 * part_mask.x * part_mask.x);
 }
-
-vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
-  float own = fract(part_self.z * 13.7 + part_mask.w * 0.381966);
-  Leaf leaf = grass_leaf(species, part_color, part_mask.y, part_mask.x, own);
-  leaf.albedo *= relief();
-  vec3 normal = normalize(part_normal.xyz);
-  normal = normalize(mix(normal * (dot(normal, to_eye) < 0.0 ? -1.0 : 1.0), part_ground.xyz, mix(0.2, 0.8, part_ground.w)));
-  return shade_leaf(species, leaf, normal, to_eye);
-}
-
-void main() { shade_part(); }

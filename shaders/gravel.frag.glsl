@@ -41,7 +41,6 @@ vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   float gloss = pow(max(dot(to_eye, reflect(-sun, normal)), 0.0), species.optics.w);
   float shine = facing > 0.0 ? 0.25 * species.optics.z * gloss : 0.0;
   float low = 0.5 - 0.5 * dot(normal, part_ground.xyz);
-  return (ambient(normal) * open + bounce * low) * stone + sun_light() * mix(open, 1.0, 0.5) * (stone * facing + vec3(shine));
+  vec3 around = ambient(normal) * open + bounce * low;
+  return around * stone + sun_light() * mix(open, 1.0, 0.5) * (stone * facing + vec3(shine));
 }
-
-void main() { shade_part(); }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // Growth of broad leaves: a stalk, an outline, a rib with veins.
-#include "common_object_shade.glsl"
+#include "common_rosette.glsl"
 
 // Half the outline's width at arc length `s`, 0..1.
 float outline(float s) {
@@ -12,26 +12,15 @@ float outline(float s) {
 }
 
 float object_cover(bool shadow) {
-  float x = abs(part_mask.x), soft = max(fwidth(part_mask.x), 1.0e-3);
+  float x = abs(part_mask.x), soft = max(part_footprint.x, 1.0e-3);
   return clamp((outline(part_mask.y) - x) / soft + 0.5, 0.0, 1.0);
 }
 
 // The rib is pale, the fields between the veins bulge.
 float relief() {
   float x = abs(part_mask.x);
-  float footprint = fwidth(part_mask.y) * 14.0;
+  float footprint = part_footprint.y * 14.0;
   float veins = sin(6.2831853 * (part_mask.y * 14.0 - x * 3.0));
   float rib = exp(-40.0 * x * x);
   return 1.0 + 0.10 * veins * (1.0 - smoothstep(0.25, 0.6, footprint)) * (1.0 - rib) + 0.25 * rib;
 }
-
-vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
-  float own = fract(part_self.z * 13.7 + part_mask.w * 0.381966);
-  Leaf leaf = grass_leaf(species, part_color, part_mask.y, part_mask.x, own);
-  leaf.albedo *= relief();
-  vec3 normal = normalize(part_normal.xyz);
-  normal = normalize(mix(normal * (dot(normal, to_eye) < 0.0 ? -1.0 : 1.0), part_ground.xyz, mix(0.2, 0.8, part_ground.w)));
-  return shade_leaf(species, leaf, normal, to_eye);
-}
-
-void main() { shade_part(); }

@@ -15,7 +15,7 @@ float outline(float s, float side) {
 
 float object_cover(bool shadow) {
   if (is_twig()) return 1.0;
-  float x = abs(part_mask.x), soft = max(fwidth(part_mask.x), 1.0e-3);
+  float x = abs(part_mask.x), soft = max(part_footprint.x, 1.0e-3);
   return clamp((outline(part_mask.y, sign(part_mask.x)) - x) / soft + 0.5, 0.0, 1.0);
 }
 
@@ -28,7 +28,7 @@ vec3 dead_leaf(SpeciesParams species) {
   vec3 tint = mix(species.tint.rgb, species.age_tint.rgb, age);
   if (is_twig()) return light * tint * vec3(0.85, 0.68, 0.50) * mix(0.6, 1.1, own);
   float x = part_mask.x, s = part_mask.y;
-  float fine = 1.0 - smoothstep(0.25, 0.6, fwidth(s) * 9.0);
+  float fine = 1.0 - smoothstep(0.25, 0.6, part_footprint.y * 9.0);
   float veins = 0.16 * fine * sin(6.2831853 * (s * 9.0 - abs(x) * 2.0)) - 0.25 * exp(-90.0 * x * x);
   return light * tint * brown * (1.0 + veins) * mix(0.75, 1.25, fract(part_self.z * 211.1));
 }
@@ -41,5 +41,3 @@ vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   vec3 normal = normalize(part_normal.xyz);
   return shade_leaf(species, leaf, normal * (dot(normal, to_eye) < 0.0 ? -1.0 : 1.0), to_eye);
 }
-
-void main() { shade_part(); }

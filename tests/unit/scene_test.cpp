@@ -493,7 +493,7 @@ TEST(Scene, BuiltInScenesAreSound) {
   EXPECT_EQ(puget->height_scale, 0.1);
   const auto missing = builtin_scene("moon");
   ASSERT_FALSE(missing);
-  EXPECT_NE(missing.error().message.find("\"moon\", expected one of \"meadow\", \"puget\""), std::string::npos)
+  EXPECT_NE(missing.error().message.find("\"moon\", expected one of \"border\", \"meadow\", \"puget\""), std::string::npos)
       << missing.error().message;
 }
 

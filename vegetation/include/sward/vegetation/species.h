@@ -10,7 +10,8 @@
 
 namespace sward {
 
-/// What grows (or not) where the ground has a species' colour.
+/// What grows (or not) where the ground has a species' colour. What sizes and colours mean to each kind:
+/// docs/scene_format.md, "Kinds".
 enum class PlantKind : uint32_t {
   none,   ///< Bare ground: soil, rock, snow. Competes for clusters, grows nothing.
   blade,  ///< A blade of grass.
