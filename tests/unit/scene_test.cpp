@@ -439,6 +439,9 @@ TEST(Scene, BrokenToml) {
   expect_error(with_line(4, "samples = = 3"), 4, "expected TOML");
   expect_error(with_added(4, "samples = 300"), 5, "expected TOML");
   expect_error(with_line(6, "name = \"open"), 6, "expected TOML");
+  const auto cut = parse_scene("[terrain]\nenabled = tru\n", "t.toml");
+  ASSERT_FALSE(cut);
+  EXPECT_EQ(cut.error().message.find('\n'), std::string::npos) << cut.error().message;
   expect_error(with_line(6, "name = \"\xff\xfe\""), 6, "expected TOML");
   expect_error(std::string("name = \"x\"\n\0\0\0", 14), 2, "expected TOML");
 }
