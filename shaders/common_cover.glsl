@@ -7,12 +7,7 @@
 // The mask of samples is written here, not left to GL_SAMPLE_ALPHA_TO_COVERAGE: drivers round alpha differently, and
 // their masks are nested, so that of two plants covering a quarter of a pixel each one would always hide the other.
 
-float hash_unit(uvec2 v) {
-  uint h = v.x * 0x9E3779B1u ^ v.y * 0x85EBCA77u;
-  h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
-  h = (h ^ (h >> 12)) * 0x297A2D39u;
-  return float((h ^ (h >> 15)) >> 8) * 5.9604645e-8;
-}
+#include "common_hash.glsl"
 
 const int k_all_samples = -1;
 

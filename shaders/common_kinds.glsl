@@ -8,6 +8,8 @@
 //   flower  own_a: petal colours (pack_color, vegetation/src/vegetation/layer_params.cpp); own_b: their cumulative
 //           shares but for the last; cup; own_c: head's diameter min, max (m); petals; centre's share of the radius;
 //           own_d: centre's colour; stem's colour, negative: the ground's; leaves; width of petals
+//   leaf, fern  own_a: leaves
+//   billboard  own_a: bare share of the height, taper of the crown
 //   a host's own: its parameters
 
 // State of the sequence of a plant's part; parts of one plant are evenly spread.

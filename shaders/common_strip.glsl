@@ -6,11 +6,11 @@
 #include "common_light.glsl"
 #include "common_ground.glsl"
 #include "common_leaf.glsl"
+#include "common_ground_shadow.glsl"
 #include "common_layer.glsl"
 #include "common_cover.glsl"
 
 layout(location = 0) uniform int sward_species;
-layout(binding = SWARD_BINDING_BASE_MAP) uniform sampler2D sward_base_map;
 
 layout(location = 0) in vec4 strip_point;        // relative to the eye; arc length
 layout(location = 1) in vec4 strip_normal;       // towards the viewer, rounded; -1..1 across
@@ -22,19 +22,11 @@ layout(location = 5) flat in vec4 strip_self;    // base map coordinates below t
 
 layout(location = 0) out vec4 color;
 
-// Sunlight left in the densest shadow: light between the blades and through them.
-const float k_shadow_light = 0.12;
-
 // How much of the ground's normal even near blades take on.
 const float k_field_share = 0.3;
 
 vec3 shadow_color(float strength) {
-  vec2 uv = strip_self.xy + strip_point.xy * sward_layer.layer.map.xy / sward_layer.layer.map.zw;
-  vec3 normal = strip_ground.xyz;
-  GroundDetail detail = ground_detail(strip_point.xyz, normal);
-  vec3 albedo = ground_albedo(sward_base_map, uv, detail);
-  vec3 rough_normal = normalize(vec3(normal.xy / normal.z - detail.slope, 1.0));
-  return shade_ground(albedo, rough_normal, strip_point.xyz, mix(1.0, k_shadow_light, strength));
+  return darkened_ground(strip_point.xyz, strip_self.xy, strip_ground.xyz, 1.0, mix(1.0, k_shadow_light, strength));
 }
 
 // A leaf's light; `field`: how much of the ground's normal it takes on.

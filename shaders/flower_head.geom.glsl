@@ -6,6 +6,7 @@
 #include "common_frame.glsl"
 #include "common_layer.glsl"
 #include "common_visible.glsl"
+#include "common_shadow_projection.glsl"
 #include "common_head.glsl"
 
 layout(lines, invocations = SWARD_GROWTH_INVOCATIONS) in;

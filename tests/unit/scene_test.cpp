@@ -411,6 +411,18 @@ TEST(Scene, Contradictions) {
                15, "a second layer is named \"cover\"");
   expect_error(with_added(12, "height_m = [1, 2]"), 13, "height_m has no effect where nothing grows");
   expect_error(with_added(9, "forbids = true"), 10, "forbids has no effect on what grows");
+  for (const char* key : {"stiffness = [0, 1]", "lean_deg = 3", "phototropism = 1", "attenuation = 1", "leaves = 4",
+                          "trunk_share = 0.1"}) {
+    const std::string name = std::string(key).substr(0, std::string(key).find(' '));
+    expect_error(with_added(9, "kind = \"gravel\"\n" + std::string(key)), 11, name + " has no effect");
+  }
+  expect_error(with_added(9, "kind = \"litter\"\nlean_deg = 3"), 11, "lean_deg has no effect");
+  expect_error(with_added(9, "kind = \"billboard\"\nstiffness = [0, 1]"), 11, "stiffness has no effect");
+  expect_error(with_added(9, "kind = \"billboard\"\nleaves = 3"), 11, "leaves has no effect");
+  expect_error(with_added(9, "kind = \"fern\"\ntaper = 1"), 11, "taper has no effect");
+  expect_error(with_added(9, "kind = \"fern\"\nleaves = 9"), 11, "leaves = 9");
+  expect_error(with_added(9, "kind = \"billboard\"\ntrunk_share = 0.95"), 11, "trunk_share = 0.95");
+  expect_error(with_added(9, "kind = \"bush\""), 10, "kind = \"bush\"");
   expect_error(with_added(6, "ceiling = 5"), 7, "ceiling has no effect under law = \"distance\"");
   expect_error(with_added(6, "law = \"screen_area\"\nplain = true\nfull_distance_m = 5"), 9,
                "full_distance_m has no effect");
@@ -516,6 +528,9 @@ TEST(Scene, BrokenToml) {
   expect_error(with_line(4, "samples = = 3"), 4, "expected TOML");
   expect_error(with_added(4, "samples = 300"), 5, "expected TOML");
   expect_error(with_line(6, "name = \"open"), 6, "expected TOML");
+  const auto cut = parse_scene("[terrain]\nenabled = tru\n", "t.toml");
+  ASSERT_FALSE(cut);
+  EXPECT_EQ(cut.error().message.find('\n'), std::string::npos) << cut.error().message;
   expect_error(with_line(6, "name = \"\xff\xfe\""), 6, "expected TOML");
   expect_error(std::string("name = \"x\"\n\0\0\0", 14), 2, "expected TOML");
 }
@@ -570,8 +585,9 @@ TEST(Scene, BuiltInScenesAreSound) {
   EXPECT_EQ(puget->height_scale, 0.1);
   const auto missing = builtin_scene("moon");
   ASSERT_FALSE(missing);
-  EXPECT_NE(missing.error().message.find("\"moon\", expected one of \"flowers\", \"meadow\", \"puget\""),
-            std::string::npos)
+  EXPECT_NE(
+      missing.error().message.find("\"moon\", expected one of \"border\", \"flowers\", \"meadow\", \"puget\""),
+      std::string::npos)
       << missing.error().message;
 }
 

@@ -3,6 +3,7 @@
 
 #include <sward/scene/scene.h>
 
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -38,7 +39,10 @@ Expected<Scene> parse(std::string_view text, const std::string& name) {
   if (auto checked = check_dots(text, name); !checked) return tl::unexpected(checked.error());
   const toml::parse_result parsed = toml::parse(text);
   if (!parsed) {
-    return context.fail_at(parsed.error().source(), "expected TOML: " + std::string(parsed.error().description()));
+    // The description quotes what was read, line breaks included; messages are one line.
+    std::string description(parsed.error().description());
+    std::replace_if(description.begin(), description.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return context.fail_at(parsed.error().source(), "expected TOML: " + description);
   }
   Scene scene;
   if (auto read = scene_file::read_fields(parsed.table(), scene_file::scene_schema(), scene, context); !read) {

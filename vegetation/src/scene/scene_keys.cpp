@@ -255,6 +255,30 @@ Expected<void> check_kind_tables(const toml::table& table, const Species& specie
   return {};
 }
 
+/// Keys that say nothing to the species' kind.
+Expected<void> check_kind(const toml::table& table, const Species& species, const Context& context) {
+  const PlantKind kind = species.kind;
+  if (kind == PlantKind::gravel) {
+    auto fits = refuse(table, {"stiffness", "lean_deg", "phototropism", "translucency", "attenuation"},
+                       "on stones (kind = \"gravel\")", context);
+    if (!fits) return fits;
+  }
+  if (kind == PlantKind::litter) {
+    auto fits = refuse(table, {"lean_deg", "phototropism"}, "on what lies flat (kind = \"litter\")", context);
+    if (!fits) return fits;
+  }
+  if (kind == PlantKind::billboard) {
+    auto fits = refuse(table, {"stiffness"}, "on shrubs and trees (kind = \"billboard\")", context);
+    if (!fits) return fits;
+  } else if (auto fits =
+                 refuse(table, {"trunk_share", "taper"}, "here, expected only with kind = \"billboard\"", context);
+             !fits) {
+    return fits;
+  }
+  if (kind == PlantKind::leaf || kind == PlantKind::fern) return {};
+  return refuse(table, {"leaves"}, "here, expected only with kind = \"leaf\" or \"fern\"", context);
+}
+
 Expected<void> check_species(const toml::table& table, const Species& species, const Context& context) {
   if (!table.contains("name")) return context.fail_at(table, "a species has no name, expected name = \"...\"");
   if (table.contains("color") && table.contains("hsv")) {
@@ -267,12 +291,16 @@ Expected<void> check_species(const toml::table& table, const Species& species, c
   }
   if (auto fits = check_kind_tables(table, species, context); !fits) return fits;
   if (species.kind == PlantKind::none) {
-    return refuse(table,
-                  {"height_m", "width_m", "stiffness", "lean_deg", "phototropism", "segments", "tint", "age_tint",
-                   "age_share", "root_shade", "translucency", "attenuation", "specular", "shininess"},
-                  "where nothing grows (kind = \"none\")", context);
+    return refuse(
+        table,
+        {"height_m", "width_m", "stiffness", "lean_deg", "phototropism", "segments", "tint", "age_tint", "age_share",
+         "root_shade", "translucency", "attenuation", "specular", "shininess", "leaves", "trunk_share", "taper"},
+        "where nothing grows (kind = \"none\")", context);
   }
-  return refuse(table, {"forbids"}, "on what grows, expected only with kind = \"none\"", context);
+  if (auto fits = refuse(table, {"forbids"}, "on what grows, expected only with kind = \"none\"", context); !fits) {
+    return fits;
+  }
+  return check_kind(table, species, context);
 }
 
 // ---- [[layer]] ----
@@ -414,7 +442,12 @@ const Schema<Species>& species_schema() {
                              {"none", PlantKind::none},
                              {"tuft", PlantKind::tuft},
                              {"flower", PlantKind::flower},
-                             {"custom", PlantKind::custom}}),
+                             {"custom", PlantKind::custom},
+                             {"gravel", PlantKind::gravel},
+                             {"leaf", PlantKind::leaf},
+                             {"fern", PlantKind::fern},
+                             {"litter", PlantKind::litter},
+                             {"billboard", PlantKind::billboard}}),
        hex_color_key(),
        hsv_key(),
        weights_key(),
@@ -435,6 +468,9 @@ const Schema<Species>& species_schema() {
        number("attenuation", &S::attenuation, within(0, 10000)),
        number("specular", &S::specular, within(0, 10000)),
        number("shininess", &S::shininess, within(1, 10000)),
+       whole_number("leaves", &S::leaves, within(1, 8)),
+       number("trunk_share", &S::trunk_share, within(0, 0.9)),
+       number("taper", &S::taper, within(0, 1)),
        table<S, TuftShape>("tuft", &S::tuft, tuft_schema()),
        table<S, FlowerShape>("flower", &S::flower, flower_schema()),
        table<S, CustomKind>("custom", &S::custom, custom_schema())},

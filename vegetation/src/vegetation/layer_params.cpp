@@ -56,6 +56,10 @@ void set_own(const Species& s, shared::SpeciesParams& params) {
   params.own_a = params.own_b = params.own_c = params.own_d = glm::vec4(0.0f);
   if (s.kind == PlantKind::tuft) {
     params.own_a = {float(s.tuft.blades.min), float(s.tuft.blades.max), s.tuft.spread, 0.0f};
+  } else if (s.kind == PlantKind::leaf || s.kind == PlantKind::fern) {
+    params.own_a = {float(s.leaves), 0.0f, 0.0f, 0.0f};
+  } else if (s.kind == PlantKind::billboard) {
+    params.own_a = {s.trunk_share, s.taper, 0.0f, 0.0f};
   } else if (s.kind == PlantKind::flower) {
     set_flower(s.flower, params);
   } else if (s.kind == PlantKind::custom) {

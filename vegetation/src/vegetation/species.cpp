@@ -71,7 +71,7 @@ class Check {
 };
 
 void check_classification(const Species& species, Check& check) {
-  check.require(species.kind <= PlantKind::custom, "kind is none that is known");
+  check.require(species.kind <= PlantKind::billboard, "kind is none that is known");
   check.within("reference_hsv[0]", species.reference_hsv.x, 0.0f, std::nextafter(1.0f, 0.0f));
   check.within("reference_hsv[1]", species.reference_hsv.y, 0.0f, 1.0f);
   check.within("reference_hsv[2]", species.reference_hsv.z, 0.0f, 1.0f);
@@ -99,6 +99,9 @@ void check_growth(const Species& species, Check& check) {
   check.within("attenuation", species.attenuation, 0.0f, k_most);
   check.within("specular", species.specular, 0.0f, k_most);
   check.within("shininess", species.shininess, 1.0f, k_most);
+  check.within("leaves", float(species.leaves), 1.0f, 8.0f);
+  check.within("trunk_share", species.trunk_share, 0.0f, 0.9f);
+  check.within("taper", species.taper, 0.0f, 1.0f);
 }
 
 void check_tuft(const TuftShape& tuft, Check& check) {

@@ -25,7 +25,7 @@ struct KindProgram {
   /// Points that the tessellator makes of one line; nullptr: by segments.
   int (*points)(const Species& species) = nullptr;
 };
-constexpr std::array<KindProgram, 5> k_kinds{{
+constexpr std::array<KindProgram, 10> k_kinds{{
     {PlantKind::blade, "grass_blade", "grow.vert.glsl", "grass_blade.tesc.glsl", "grass_blade.tese.glsl",
      "grass_blade.geom.glsl", "grass_blade.frag.glsl"},
     {PlantKind::tuft, "tuft", "shoot.vert.glsl", "shoot.tesc.glsl", "shoot.tese.glsl", "grass_blade.geom.glsl",
@@ -37,6 +37,14 @@ constexpr std::array<KindProgram, 5> k_kinds{{
      [](const Species& s) { return s.flower.petals + 1; }},
     {PlantKind::custom, "custom", "shoot.vert.glsl", "shoot.tesc.glsl", "shoot.tese.glsl", "grass_blade.geom.glsl",
      "shoot.frag.glsl", true, nullptr, [](const Species& s) { return s.custom.shoots; }},
+    {PlantKind::gravel, "gravel", "grow.vert.glsl", "gravel.tesc.glsl", "gravel.tese.glsl", "gravel.geom.glsl",
+     "gravel.frag.glsl"},
+    {PlantKind::leaf, "leaf", "grow.vert.glsl", "leaf.tesc.glsl", "leaf.tese.glsl", "leaf.geom.glsl", "leaf.frag.glsl"},
+    {PlantKind::fern, "fern", "grow.vert.glsl", "leaf.tesc.glsl", "leaf.tese.glsl", "leaf.geom.glsl", "fern.frag.glsl"},
+    {PlantKind::litter, "litter", "grow.vert.glsl", "litter.tesc.glsl", "litter.tese.glsl", "litter.geom.glsl",
+     "litter.frag.glsl"},
+    {PlantKind::billboard, "billboard", "grow.vert.glsl", "billboard.tesc.glsl", "billboard.tese.glsl",
+     "billboard.geom.glsl", "billboard.frag.glsl"},
 }};
 
 /// The file of functions that a species' program is built with; empty for kinds that are not made of shoots.
@@ -77,7 +85,7 @@ int instances_of(const KindProgram& kind, const Layer& layer, const Species& spe
 /// those that follow. The most clusters of a species whose points still have a number each; odd spacing adds up to two
 /// segments, a line one point.
 GLsizei part_of(const KindProgram& kind, const Layer& layer, const Species& species) {
-  const int points = kind.points != nullptr ? kind.points(species) : species.max_segments + 3;
+  const int points = kind.points != nullptr ? kind.points(species) : std::max(species.max_segments, 5) + 3;
   const int lines = layer.cluster_size * (kind.of_shoots ? kind.shoots(species) : 1);
   return std::max(0xffff / (lines * points), 1);
 }

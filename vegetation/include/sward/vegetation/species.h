@@ -10,13 +10,19 @@
 
 namespace sward {
 
-/// What grows (or not) where the ground has a species' colour.
+/// What grows (or not) where the ground has a species' colour. What sizes and colours mean to each kind:
+/// docs/scene_format.md, "Kinds".
 enum class PlantKind : uint32_t {
   none,   ///< Bare ground: soil, rock, snow. Competes for clusters, grows nothing.
   blade,  ///< A blade of grass.
   tuft,    ///< Blades fanned out from one root: Species::tuft.
   flower,  ///< A stem with a head at its end: Species::flower.
   custom,  ///< A host's own, made of shoots by its GLSL functions: Species::custom.
+  gravel,     ///< A faceted stone, a third of it in the ground.
+  leaf,       ///< A rosette of broad leaves.
+  fern,       ///< A rosette of fronds.
+  litter,     ///< A dead leaf or a twig, flat on the ground.
+  billboard,  ///< A shrub or a tree: a trunk and clusters of leaves that face the eye.
 };
 
 struct FloatRange {
@@ -91,6 +97,9 @@ struct Species {
   TuftShape tuft;  ///< Read for kind tuft alone, the next for flower and custom.
   FlowerShape flower;
   CustomKind custom;
+  int leaves = 6;                       ///< Kinds leaf and fern: leaves or fronds of a plant, 1..8.
+  float trunk_share = 0.3f;             ///< Kind billboard: share of the height below the crown, 0..0.9; 0: a shrub.
+  float taper = 0.0f;                   ///< Kind billboard: crown's outline from 0, an ellipse, to 1, a cone.
 };
 
 enum class DensityLaw : uint32_t {
