@@ -4,8 +4,12 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
+#include <memory>
 #include <string>
+#include <sward/terrain/color_map.h>
 #include <sward/terrain/error.h>
+#include <sward/vegetation/placement.h>
 #include <vector>
 
 namespace sward {
@@ -18,6 +22,25 @@ enum class PlantKind : uint32_t {
 
 struct FloatRange {
   float min = 0, max = 0;
+};
+
+/// No bound of a range.
+inline constexpr float k_unbounded = std::numeric_limits<float>::infinity();
+
+/// What a season makes of a species.
+struct SeasonValues {
+  glm::vec3 reference_hsv{0.25f, 0.5f, 0.4f};  ///< As Species::reference_hsv.
+  glm::vec3 tint{1.0f};
+  glm::vec3 age_tint{1.25f, 1.05f, 0.55f};
+  float age_share = 0.35f;
+  float height = 1.0f;   ///< Share of Species::height_m, 0..1.
+  float density = 1.0f;  ///< Share of the layer's density, 0..1: the last ranks go first, shrinking.
+};
+
+/// The values at one time of the year.
+struct SeasonFrame {
+  float at = 0;  ///< [0, 1); rising from frame to frame.
+  SeasonValues values;
 };
 
 /// A reference colour, placement rules and growth parameters (Papavasiliou 2015, section 3.3).
@@ -49,6 +72,18 @@ struct Species {
   float attenuation = 0.4f;             ///< alpha of equation 13, >= 0.
   float specular = 0.12f;               ///< k_s of equation 14, >= 0.
   float shininess = 24.0f;              ///< n of equation 14, >= 1.
+
+  // Placement rules. Each is a factor 0..1 on the score, asked at a cluster's centre; each seed then asks again at its
+  // own place, and stands with the probability of the factor there: nowhere where it is 0.
+  FloatRange slope{0.0f, k_unbounded};  ///< Of the data at the seeding triangle, radians.
+  float slope_soft = 0.0f;              ///< The factor falls to 0 so far beyond the range, radians, >= 0.
+  FloatRange altitude_m{-k_unbounded, k_unbounded};  ///< World z of the finest data.
+  float altitude_soft_m = 0.0f;                      ///< As slope_soft, metres.
+  float above_water_m = -k_unbounded;    ///< Least height above Layer::water_level_m; may be negative.
+  std::shared_ptr<const GrayMap> mask;   ///< Null: none.
+  std::string mask_file;  ///< For those who load scenes: where `mask` comes from. Not read here; without `mask`, an error.
+
+  std::vector<SeasonFrame> seasons;  ///< In the order of the year; empty: the species' own values all year.
 };
 
 enum class DensityLaw : uint32_t {
@@ -75,6 +110,13 @@ struct Layer {
   float full_segments_m = 6.0f;    ///< d0 of equation 4: full segments up to here. > 0.
   bool shadows = true;             ///< Planar shadows.
   float shadow_distance_m = 60.0f; ///< No shadows of plants beyond. >= 0.
+
+  float water_level_m = -k_unbounded;               ///< World z, for Species::above_water_m.
+  std::shared_ptr<const GrayMap> mask;              ///< For all species; asked at each seed. Null: none.
+  std::shared_ptr<const ColorMap> distribution;     ///< Classification reads its texels (colours, alpha) instead of the
+                                                    ///< base map's; its place is the base map's. Null: the base map.
+  std::string mask_file, distribution_file;         ///< As Species::mask_file.
+  float season = 0.0f;  ///< Time of the year, 0..1, 1 being 0 again; finite. Of no use without Species::seasons.
 };
 
 inline constexpr int k_max_species = 64;  ///< In one layer.
@@ -83,6 +125,16 @@ inline constexpr int k_density_bins = 32;
 
 /// Fails naming layer, species, field and range.
 Expected<void> validate(const Layer& layer);
+
+/// Fails where a file of a mask or distribution map is named but not loaded.
+Expected<void> require_maps(const Layer& layer);
+
+/// Whether a rule asks for FixedTriangles::altitude().
+bool needs_altitudes(const Layer& layer);
+
+/// Values of a species at a time of the year: between two frames eased (smoothstep), hue the shorter way round, from the
+/// last frame to the first across the turn of the year. Without frames the species' own, whole height and density.
+SeasonValues season_values(const Species& species, float season);
 
 /// Highest a plant of the layer can reach above the ground, metres.
 float canopy_height(const Layer& layer);
