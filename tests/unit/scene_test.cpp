@@ -518,6 +518,10 @@ TEST(Scene, ThePageDescribesEveryKey) {
   expect_described(scene_file::camera_schema(), page);
   expect_described(scene_file::layer_schema(), page);
   expect_described(scene_file::species_schema(), page);
+  expect_described(scene_file::species_season_schema(), page);
+  expect_described(scene_file::season_schema(), page);
+  expect_described(scene_file::ground_season_schema(), page);
+  expect_described(scene_file::exclude_schema(), page);
 }
 
 }  // namespace

@@ -18,5 +18,9 @@ const Schema<Scene>& haze_schema();
 const Schema<Scene>& camera_schema();
 const Schema<Layer>& layer_schema();
 const Schema<Species>& species_schema();
+const Schema<SeasonFrame>& species_season_schema();
+const Schema<Scene>& season_schema();
+const Schema<GroundSeason>& ground_season_schema();
+const Schema<ExclusionShape>& exclude_schema();
 
 }  // namespace sward::scene_file

@@ -3,8 +3,8 @@
 #pragma once
 
 // Which parts of a host's shapes concern a triangle. Shapes are cut down twice: to square cells of the world, which are
-// kept until the shapes change, and from the cell's parts to the triangle's. What is left of a polygon for a triangle are
-// the edges that the ray to the east can cross from a place on it, and whether the rest of them puts it inside:
+// kept until the shapes change, and from the cell's parts to the triangle's. What is left of a polygon for a triangle
+// are the edges that the ray to the east can cross from a place on it, and whether the rest of them puts it inside:
 //
 //      +-----------------+         An edge is left out when it lies above, below or to the west of the box; one to the
 //      |   box  .------->|  /      east that spans its height is crossed from everywhere, and only flips `inside`.

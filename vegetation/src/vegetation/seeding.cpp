@@ -134,8 +134,8 @@ float limit_of(const Layer& layer, const View& view, float zoom, const FixedTria
 /// Whether excluded shapes cover all of triangle i; else what it needs to know of them.
 bool excluded(const FixedTriangles& triangles, size_t i, Seeding& out) {
   const size_t first = out.exclusions.size();
-  const Reach reach = out.index->shapes_near(glm::dvec2(triangles.apex()[i]), glm::vec2(triangles.to_left()[i]),
-                                             glm::vec2(triangles.to_right()[i]), out.exclusions);
+  const Reach reach = out.scratch.index->shapes_near(glm::dvec2(triangles.apex()[i]), glm::vec2(triangles.to_left()[i]),
+                                                     glm::vec2(triangles.to_right()[i]), out.exclusions);
   if (reach == Reach::all) {
     out.exclusions.resize(first);
     return true;
@@ -151,17 +151,17 @@ bool excluded(const FixedTriangles& triangles, size_t i, Seeding& out) {
 double largest_extent(const FixedTriangles& triangles) {
   glm::vec2 extent(0.0f);
   for (size_t i = 0; i < triangles.size(); ++i) {
-    extent = glm::max(extent, glm::max(glm::abs(glm::vec2(triangles.to_left()[i])),
-                                       glm::abs(glm::vec2(triangles.to_right()[i]))));
+    extent = glm::max(
+        extent, glm::max(glm::abs(glm::vec2(triangles.to_left()[i])), glm::abs(glm::vec2(triangles.to_right()[i]))));
   }
   return double(std::max(extent.x, extent.y));
 }
 
 void follow_exclusions(const Layer& layer, const FixedTriangles& triangles, const Exclusions* exclusions,
                        Seeding& out) {
-  if (!out.index) out.index = std::make_shared<ExclusionIndex>();
+  if (!out.scratch.index) out.scratch.index = std::make_shared<ExclusionIndex>();
   const bool any = exclusions != nullptr && exclusions->size() > 0;
-  out.index->follow(exclusions, layer.name, any ? largest_extent(triangles) : 0.0);
+  out.scratch.index->follow(exclusions, layer.name, any ? largest_extent(triangles) : 0.0);
   out.exclusions.assign(1, glm::vec4(0.0f));
 }
 
@@ -177,7 +177,7 @@ void count_seeds(const Layer& layer, const View& view, const FixedTriangles& tri
     const uint32_t submitted = limit > 0.0f ? uint32_t(std::ceil(std::min(limit, k_most_seeds))) : 0u;
     out.counts[i] = {full > 0.0f ? area[i] * full : limit, submitted, 0, 0};
     if (submitted == 0) continue;
-    if (!out.index->empty() && excluded(triangles, i, out)) {
+    if (!out.scratch.index->empty() && excluded(triangles, i, out)) {
       out.counts[i].submitted = 0;
       continue;
     }

@@ -96,9 +96,11 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
   const gl::Bindings& units = inputs.bindings;
   const StageBindings bound(units, inputs.frame.buffer(), inputs.species,
                             {{units.base_map, inputs.ground.base_map()},
-                             {units.base_map_raw, inputs.ground.base_map_raw()},
+                             {units.base_map_raw, inputs.placement.map()},
                              {units.triangles, inputs.triangles.records()},
                              {units.surface, inputs.triangles.surface()},
+                             {units.exclusions, inputs.triangles.exclusions()},
+                             {units.placement, inputs.placement.masks()},
                              {units.blade_shape, blade_shape_.id()}});
   glPatchParameteri(GL_PATCH_VERTICES, 1);
   glBindVertexArray(vertex_array_.id());

@@ -43,9 +43,9 @@ struct ExclusionId {
   bool operator==(const ExclusionId&) const = default;
 };
 
-/// The shapes of a host, to be given to seed(): roads, runways, houses. They may change between any two calls of it, and
-/// what is seeded next follows; renderers need not know. One thread at a time while it changes; seeding on any threads
-/// while it does not.
+/// The shapes of a host, to be given to seed(): roads, runways, houses. They may change between any two calls of it,
+/// and what is seeded next follows; renderers need not know. One thread at a time while it changes; seeding on any
+/// threads while it does not.
 class Exclusions {
  public:
   /// Fails, keeping nothing, where the shape does not validate.

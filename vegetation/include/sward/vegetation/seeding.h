@@ -58,7 +58,16 @@ struct Seeding {
     uint32_t submitted = 0, bin = 0, exclusions = 0;
   };
   std::vector<Count> counts;
-  std::shared_ptr<ExclusionIndex> index;  ///< Scratch too.
+  /// Scratch too, and not copied with the rest.
+  struct Scratch {
+    std::shared_ptr<ExclusionIndex> index;
+    Scratch() = default;
+    Scratch(const Scratch&) {}
+    Scratch& operator=(const Scratch&) { return *this; }
+    Scratch(Scratch&&) = default;
+    Scratch& operator=(Scratch&&) = default;
+  };
+  Scratch scratch;
 };
 
 /// Seeds that a triangle is given by the layer's law, not rounded: it submits the next whole number. 0 beyond the
