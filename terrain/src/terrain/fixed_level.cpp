@@ -268,7 +268,7 @@ void Memory::write_chunk(size_t i, const ChunkResult& result, Offset at, const F
   pack(result.screen_area, result.visible, &to.screen_area[at.triangle]);
   pack(result.distance, result.visible, &to.distance[at.triangle]);
   if (chunk.altitude.empty()) {
-    std::fill_n(&to.altitude[at.triangle], std::popcount(result.visible), glm::vec3(0));
+    std::fill_n(&to.altitude[at.triangle], std::popcount(result.visible), glm::vec3(NAN));
   } else {
     pack(chunk.altitude, result.visible, &to.altitude[at.triangle]);
   }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "vegetation/vegetation_renderer_stages.h"
 
@@ -42,7 +43,15 @@ struct VegetationRenderer::Impl {
   View view;
   std::array<DensityBin, k_density_bins> bins{};
   uint32_t clusters = 0;
-  bool uploaded = false, classified = false;
+  bool uploaded = false, classified = false, season_changed = false;
+
+  /// The species as the season has them: what is drawn goes by what was classified.
+  void write_season() {
+    if (!std::exchange(season_changed, false)) return;
+    const SpeciesBlock block = make_species_block(layer);
+    glNamedBufferSubData(species.id(), GLintptr(offsetof(SpeciesBlock, species)), GLsizeiptr(sizeof block.species),
+                         block.species.data());
+  }
 
   StageInputs inputs(const gl::Frame& frame, const gl::GroundTextures& ground) const {
     return {bindings, frame, ground, triangles, placement, species.id()};
@@ -110,6 +119,7 @@ void VegetationRenderer::classify(const gl::Frame& frame, const gl::GroundTextur
   // The sun's azimuth reaches the shaders with the frame.
   const shared::LayerParams params = make_layer_params(self.layer, self.view, map, 0.0f);
   glNamedBufferSubData(self.species.id(), 0, sizeof params, &params);
+  self.write_season();
   self.query_frame = (self.query_frame + 1) % k_query_frames;
   StageQueries& queries = self.queries[self.query_frame];
   queries.begin_frame(self.clusters);
@@ -131,9 +141,7 @@ void VegetationRenderer::set_season(float season) {
   SWARD_ASSERT(std::isfinite(season), "a season is a finite number");
   Impl& self = *impl_;
   self.layer.season = season;
-  const SpeciesBlock block = make_species_block(self.layer);
-  glNamedBufferSubData(self.species.id(), GLintptr(offsetof(SpeciesBlock, species)), GLsizeiptr(sizeof block.species),
-                       block.species.data());
+  self.season_changed = true;
 }
 
 Expected<void> VegetationRenderer::set_values(size_t species, const SeasonValues& values) {

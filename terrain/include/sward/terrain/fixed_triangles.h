@@ -54,8 +54,8 @@ struct FixedTriangle {
   float screen_area = 0;  ///< Projected area in units of (half the viewport's height) squared; infinite when a corner
                           ///< lies behind the near plane.
   float distance = 0;     ///< From the eye to the nearest point of the triangle, metres.
-  /// z of the finest data at apex, left, right, world, metres; static, NaN where there are none. What rules of
-  /// altitude go by; 0 where FixedLevelOptions::altitudes does not ask for it.
+  /// z of the finest data at apex, left, right, world, metres; static, NaN where there are none, and where
+  /// FixedLevelOptions::altitudes does not ask for them: nothing with a rule of altitude stands there.
   glm::vec3 altitude{0};
 };
 
