@@ -5,7 +5,7 @@
 #include "common_ground_color.glsl"
 
 layout(location = 0) out ClusterOut {
-  flat uvec4 words;  // record, cluster, bits of the score s', bits of z
+  flat uvec4 words;  // record, cluster, bits of the score s' (negative: it turns to another species), bits of z
   flat int species;  // -1: nothing grows
 } cluster_out;
 
@@ -19,8 +19,7 @@ void main() {
   Triangle t = fetch_triangle(record);
   Cluster cluster = make_cluster(t.id, index);
   vec2 centre = cluster_centre(t.id, index, cluster);
-  GroundColor ground = ground_color(t, offset_from_apex(t.to_left, t.to_right, centre));
-  Choice choice = classify_ground(ground, cluster.z);
+  Choice choice = choose_cluster(t, centre, cluster.z);
   cluster_out.species = choice.species;
   cluster_out.words.zw = uvec2(floatBitsToUint(choice.score), floatBitsToUint(cluster.z));
 }

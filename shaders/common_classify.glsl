@@ -17,6 +17,9 @@ struct SpeciesParams {
   vec4 own_b;
   vec4 own_c;
   vec4 own_d;
+  vec4 altitude;    // rule: least, greatest, soft edge; lowest place above the water (m)
+  vec4 slope;       // rule: least, greatest, soft edge (rad); number of its mask, 0: none
+  vec4 next;        // reference colour at the season's next step; share of the layer's density
 };
 
 struct LayerParams {
@@ -24,6 +27,7 @@ struct LayerParams {
   vec4 reach;     // horizon times zoom, cluster size, 1 if plain, species
   vec4 map;       // texels a metre east, texels a metre north (negative: rows run south), width, height
   vec4 detail;    // full segments up to (m, times zoom), shadow distance (times zoom), ceiling, sun's azimuth
+  vec4 place;     // number of the layer's mask, 0: none; way to the season's next step; 1 if references move; unused
 };
 
 // HSV of an sRGB-encoded colour, as a colour picker shows it; hue in turns.
@@ -42,18 +46,23 @@ SWARD_FN vec3 rgb_to_hsv(vec3 c) {
   return vec3(hue, saturation, value);
 }
 
-// Equation 16. Hue differences wrap; a nearly grey ground has no hue. 0: beyond the species' threshold.
-SWARD_FN float species_score(SpeciesParams species, vec3 hsv) {
-  SWARD_PRECISE float dh = species.reference.x - hsv.x;
+// Equation 16 for a reference colour. Hue differences wrap; a nearly grey ground has no hue. 0: beyond the species'
+// threshold.
+SWARD_FN float score_against(SpeciesParams species, vec3 reference, vec3 hsv) {
+  SWARD_PRECISE float dh = reference.x - hsv.x;
   dh = dh - floor(dh + 0.5f);
   if (hsv.y < 0.02f) dh = 0.0f;
   SWARD_PRECISE float x = dh * species.weights.x;
-  SWARD_PRECISE float y = (species.reference.y - hsv.y) * species.weights.y;
-  SWARD_PRECISE float z = (species.reference.z - hsv.z) * species.weights.z;
+  SWARD_PRECISE float y = (reference.y - hsv.y) * species.weights.y;
+  SWARD_PRECISE float z = (reference.z - hsv.z) * species.weights.z;
   SWARD_PRECISE float distance_squared = x * x + y * y + z * z;
   SWARD_PRECISE float distance = max(sqrt(distance_squared), 1.0e-4f);
   SWARD_PRECISE float score = pow(distance, -species.reference.w);
   return score >= species.weights.w ? score : 0.0f;
+}
+
+SWARD_FN float species_score(SpeciesParams species, vec3 hsv) {
+  return score_against(species, vec3(species.reference.x, species.reference.y, species.reference.z), hsv);
 }
 
 // The two best species so far; index -1: none.

@@ -16,4 +16,5 @@ layout(std140, binding = SWARD_BINDING_FRAME) uniform SwardFrame {
   vec4 ground_radiance;    // w: 1 / haze height
   vec4 eye_noise;          // eye's x, y modulo 1024 m; eye's height; samples of the target
   vec4 up;
+  vec4 ground_tint;        // factor on green ground
 } frame;

@@ -70,6 +70,9 @@ vec3 ground_albedo(sampler2D base_map, vec2 uv, GroundDetail detail) {
   float luminance = dot(base, vec3(0.2126, 0.7152, 0.0722));
   vec3 earth = luminance * vec3(1.24, 0.95, 0.62);
   vec3 color = max(mix(base, earth, 0.45 * detail.litter * earthy), 0.25 * base);
+  // What is green follows the season, the more the greener it is.
+  float green = smoothstep(0.0, 0.25, (base.g - max(base.r, base.b)) / max(brightest, 1.0e-3) + 0.1) * earthy;
+  color *= mix(vec3(1.0), frame.ground_tint.rgb, green);
   return color * mix(1.0, detail.shade, 0.25 + 0.75 * earthy);
 }
 

@@ -13,14 +13,17 @@ struct FertileCluster {
   uint index;
   float score;
   float z;
+  bool turning;  // to another species, as the season goes
 };
 
 FertileCluster unpack_cluster(uvec4 words) {
-  return FertileCluster(words.x, words.y, uintBitsToFloat(words.z), uintBitsToFloat(words.w));
+  float score = uintBitsToFloat(words.z);
+  return FertileCluster(words.x, words.y, abs(score), uintBitsToFloat(words.w), score < 0.0);
 }
 
 // Where the presence's fade is 0 nothing stands, and the rest may be undefined.
 struct Seedling {
+  vec2 point;          // in weights of the triangle
   vec2 offset;         // from the triangle's apex, metres east and north
   vec3 root;           // relative to the eye
   float distance;      // from the eye
@@ -54,21 +57,39 @@ Seedling place_seed(FertileCluster fertile, Triangle triangle, uint line) {
   Cluster cluster = make_cluster(triangle.id, fertile.index);
   vec2 point = seed_point(triangle.id, s.rank, cluster);
   SurfacePoint surface = surface_at(triangle, point);
+  s.point = point;
   s.offset = offset_from_apex(triangle.to_left, triangle.to_right, point);
   s.root = vec3(triangle.apex.xy + s.offset, surface.z);
   s.distance = seed_distance(triangle.apex, s.offset, surface.z);
   s.ground_normal = surface.normal;
-  s.presence = seed_presence(sward_layer.layer, triangle.limit, triangle.id, s.rank, s.distance);
+  precise float limit = triangle.limit * sward_layer.species[sward_species].next.w;
+  s.presence = seed_presence(sward_layer.layer, limit, triangle.id, s.rank, s.distance);
   return s;
 }
 
-// Gives a placed seed its traits. Masks, water and bare ground are sharper than a cluster: the seed's own ground has a
-// say, and where it says no, fade comes back 0.
+// Share of a seed that stands: its own ground has a say, in rules that are sharper than a cluster.
+float seed_share(FertileCluster fertile, Triangle t, Seedling s) {
+  if (excluded(t.exclusions, s.offset)) return 0.0;
+  LayerParams layer = sward_layer.layer;
+  Site site = site_at(t, s.point);
+  if (!site.open) return 0.0;
+  precise float share =
+      species_share(t, site, sward_layer.species[sward_species]) * mask_share(t, s.offset, layer.place.x);
+  if (share < 1.0 && standing_number(random_pair(s.rank, t.id)) >= share) return 0.0;
+  bool now = classify_site(t, site, fertile.z, false).species >= 0;
+  if (layer.place.z == 0.0) return now ? 1.0 : 0.0;
+  return season_presence(layer, now, classify_site(t, site, fertile.z, true).species >= 0, fertile.turning);
+}
+
+// Gives a placed seed its traits; where nothing stands, fade comes back 0.
 Seedling grow_seed(FertileCluster fertile, Triangle triangle, Seedling s) {
-  if (classify_ground(ground_color(triangle, s.offset), fertile.z).species < 0) {
+  float share = seed_share(fertile, triangle, s);
+  if (share <= 0.0) {
     s.presence = absent();
     return s;
   }
+  s.presence.fade *= share;
+  s.presence.grow *= share;
   s.map_uv = map_coordinates(triangle, s.offset);
   s.traits = make_traits(sward_layer.species[sward_species], frame_layer(), triangle.id, s.rank, fertile.score);
   return s;

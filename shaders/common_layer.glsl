@@ -6,6 +6,7 @@
 #include "common_philox.glsl"
 #include "common_seed.glsl"
 #include "common_classify.glsl"
+#include "common_placement.glsl"
 #include "common_plant.glsl"
 
 layout(std140, binding = SWARD_BINDING_SPECIES) uniform SwardSpecies {

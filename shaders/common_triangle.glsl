@@ -9,7 +9,7 @@
 layout(binding = SWARD_BINDING_TRIANGLES) uniform usamplerBuffer sward_triangles;
 layout(binding = SWARD_BINDING_SURFACE) uniform usamplerBuffer sward_surface;
 
-// TriangleRecord of seeding.h: five texels.
+// TriangleRecord of seeding.h: six texels.
 struct Triangle {
   vec3 apex, to_left, to_right;
   uvec2 id;
@@ -17,12 +17,14 @@ struct Triangle {
   ivec2 texel;
   vec2 texel_fraction;
   float limit;
-  float area;
+  float slope;
   float surface_z;
   uint submitted;
+  vec3 altitude;
+  uint exclusions;
 };
 
-uvec4 triangle_texel(uint index, int texel) { return texelFetch(sward_triangles, int(index) * 5 + texel); }
+uvec4 triangle_texel(uint index, int texel) { return texelFetch(sward_triangles, int(index) * 6 + texel); }
 
 uint fetch_submitted(uint index) { return triangle_texel(index, 4).w; }
 
@@ -32,6 +34,7 @@ Triangle fetch_triangle(uint index) {
   uvec4 right = triangle_texel(index, 2);
   uvec4 map = triangle_texel(index, 3);
   uvec4 rest = triangle_texel(index, 4);
+  uvec4 place = triangle_texel(index, 5);
   Triangle t;
   t.apex = uintBitsToFloat(apex.xyz);
   t.to_left = uintBitsToFloat(left.xyz);
@@ -41,9 +44,11 @@ Triangle fetch_triangle(uint index) {
   t.texel = ivec2(map.xy);
   t.texel_fraction = uintBitsToFloat(map.zw);
   t.limit = uintBitsToFloat(rest.x);
-  t.area = uintBitsToFloat(rest.y);
+  t.slope = uintBitsToFloat(rest.y);
   t.surface_z = uintBitsToFloat(rest.z);
   t.submitted = rest.w;
+  t.altitude = uintBitsToFloat(place.xyz);
+  t.exclusions = place.w;
   return t;
 }
 

@@ -15,6 +15,7 @@ Expected<SceneFrame> SceneFrame::create(std::span<const Layer> layers, const Sce
   frame.layers_.resize(layers.size());
   for (size_t i = 0; i < layers.size(); ++i) {
     if (auto valid = validate(layers[i]); !valid) return tl::unexpected(valid.error());
+    if (auto loaded = require_maps(layers[i]); !loaded) return tl::unexpected(loaded.error());
     frame.set_layer(i, layers[i]);
   }
   return frame;
@@ -28,6 +29,16 @@ void SceneFrame::set_layer(size_t index, const Layer& layer) {
     each.first_species = species;
     species += uint32_t(each.layer.species.size());
   }
+}
+
+Expected<void> SceneFrame::exclude(std::span<const ExclusionShape> shapes) {
+  for (const ExclusionShape& shape : shapes)
+    if (auto added = exclusions_.add(shape); !added) return tl::unexpected(added.error());
+  return {};
+}
+
+void SceneFrame::set_season(float season) {
+  for (LayerFrame& each : layers_) each.layer.season = season;
 }
 
 Expected<std::vector<LatticeBox>> SceneFrame::stream(const View& view, Streaming streaming) {
@@ -48,6 +59,7 @@ uint32_t SceneFrame::cut_triangles(const View& view) {
     options.canopy_m = canopy_height(each.layer);
     // What stands upright shows its tips over the edge of ground that has just turned away: leaving that out pops.
     options.skip_back_faces = each.layer.plain;
+    options.altitudes = needs_altitudes(each.layer);
     mesh_.fixed_level_triangles(options, each.triangles);
     count += uint32_t(each.triangles.size());
   }
@@ -55,7 +67,7 @@ uint32_t SceneFrame::cut_triangles(const View& view) {
 }
 
 void SceneFrame::seed_triangles(const View& view, const ColorMap& colors) {
-  for (LayerFrame& each : layers_) seed(each.layer, view, colors, each.triangles, each.seeding);
+  for (LayerFrame& each : layers_) seed(each.layer, view, colors, each.triangles, each.seeding, &exclusions_);
 }
 
 std::vector<Plant> SceneFrame::plants(const View& view, const ColorMap& colors, float sun_azimuth) const {

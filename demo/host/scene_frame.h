@@ -37,6 +37,12 @@ class SceneFrame {
   /// Replaces a layer's species and rules; the next frame follows them.
   void set_layer(size_t index, const Layer& layer);
 
+  /// Ground on which nothing stands; the next seeding follows changes.
+  Exclusions& exclusions() { return exclusions_; }
+  Expected<void> exclude(std::span<const ExclusionShape> shapes);
+  /// Layer::season of every layer.
+  void set_season(float season);
+
   /// Worlds: takes over what has been loaded and asks for what the view wants; the boxes in which the ground has
   /// changed, of which mesh and layers know. Before the mesh's update.
   Expected<std::vector<LatticeBox>> stream(const View& view, Streaming streaming);
@@ -53,6 +59,7 @@ class SceneFrame {
   std::vector<LayerFrame> layers_;
   Lattice lattice_;
   std::optional<WorldStream> stream_;
+  Exclusions exclusions_;
 };
 
 }  // namespace sward::host

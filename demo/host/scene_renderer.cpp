@@ -150,6 +150,7 @@ Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTer
   options.target_px = scene.target_px;
   auto cpu = SceneFrame::create(scene.layers, terrain, options);
   if (!cpu) return tl::unexpected(cpu.error());
+  if (auto excluded = cpu->exclude(scene.exclusions); !excluded) return tl::unexpected(excluded.error());
   auto frame = gl::Frame::create(bindings);
   if (!frame) return tl::unexpected(frame.error());
   auto ground = terrain.make_textures();
@@ -220,6 +221,16 @@ Expected<void> SceneRenderer::set_layer(size_t index, const Layer& layer) {
   impl_->cpu.set_layer(index, layer);
   impl_->layers[index] = layer;
   return {};
+}
+
+void SceneRenderer::set_season(float season) {
+  for (VegetationRenderer& layer : impl_->programs.vegetation) layer.set_season(season);
+  for (Layer& layer : impl_->layers) layer.season = season;
+  impl_->cpu.set_season(season);
+}
+
+Exclusions& SceneRenderer::exclusions() {
+  return impl_->cpu.exclusions();
 }
 
 Expected<void> SceneRenderer::reload(const gl::ShaderLibrary& shaders) {

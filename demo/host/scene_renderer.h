@@ -58,6 +58,10 @@ class SceneRenderer {
   void set_sky(bool enabled);
   /// Replaces a layer's species and rules. On an error (the layer does not validate) nothing changes.
   Expected<void> set_layer(size_t index, const Layer& layer);
+  /// The time of the year, 0..1, for all layers from the next frame on; the ground's is the lighting's.
+  void set_season(float season);
+  /// Ground on which nothing stands; the next frame follows changes.
+  Exclusions& exclusions();
   /// Builds every program from `shaders`, then swaps them all in. On an error the old ones stay.
   Expected<void> reload(const gl::ShaderLibrary& shaders);
 

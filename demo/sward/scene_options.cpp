@@ -157,6 +157,10 @@ Expected<gl::ShaderLibrary> make_shaders(const SceneOptions& options) {
   return gl::ShaderLibrary(options.shaders);
 }
 
+void add_season_option(CLI::App& app, SceneOptions& options) {
+  app.add_option("--season", options.season, "Time of the year, 0 to 1, instead of the scene's")->type_name("SEASON");
+}
+
 Expected<Scene> make_scene(const SceneOptions& options) {
   auto scene = read_scene(options.scene);
   if (!scene) return scene;
@@ -165,6 +169,12 @@ Expected<Scene> make_scene(const SceneOptions& options) {
   if (auto done = override_view(options, *scene); !done) return tl::unexpected(done.error());
   if (!options.texture.empty()) scene->texture_path = absolute(options.texture);
   scene->max_triangles = options.triangles.value_or(scene->max_triangles);
+  if (options.season) {
+    if (!(*options.season >= 0 && *options.season <= 1)) return fail("--season must be a number from 0 to 1");
+    scene->season = *options.season;
+    for (Layer& layer : scene->layers) layer.season = scene->season;
+  }
+  if (auto loaded = host::load_maps(*scene); !loaded) return tl::unexpected(loaded.error());
   return scene;
 }
 
@@ -181,6 +191,7 @@ Expected<std::unique_ptr<host::SceneTerrain>> make_terrain(const Scene& scene, c
 gl::Lighting make_lighting(const Scene& scene) {
   gl::Lighting lighting = gl::Lighting::clear_day(scene.sun_azimuth, scene.sun_elevation);
   lighting.haze_distance_m = scene.haze_distance_m;
+  lighting.ground_tint = ground_tint(scene.ground_seasons, scene.season);
   return lighting;
 }
 

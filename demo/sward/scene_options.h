@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "host/scene_maps.h"
 #include "host/scene_renderer.h"
 
 namespace sward::tool {
@@ -21,9 +22,10 @@ struct SceneOptions {
   std::string spacing;              ///< "M" or "M,M"; empty: the scene's.
   std::optional<double> height_scale, height_offset;
   std::optional<uint32_t> triangles;
-  std::string camera;  ///< "x,y,z,yaw,pitch"; empty: the scene's.
-  std::string sun;     ///< "azimuth,elevation"; empty: the scene's.
-  std::string detail;  ///< "on" or "off".
+  std::string camera;           ///< "x,y,z,yaw,pitch"; empty: the scene's.
+  std::string sun;              ///< "azimuth,elevation"; empty: the scene's.
+  std::optional<float> season;  ///< Time of the year.
+  std::string detail;           ///< "on" or "off".
   bool detail_given = false;
   std::string shaders;  ///< Folder of shader files that replace those built in; empty: none.
 };
@@ -34,6 +36,7 @@ void add_wait_option(CLI::App& app, bool& wait);
 void add_camera_option(CLI::App& app, SceneOptions& options);
 void add_sun_option(CLI::App& app, SceneOptions& options);
 void add_shaders_option(CLI::App& app, SceneOptions& options);
+void add_season_option(CLI::App& app, SceneOptions& options);
 
 /// Reads the scene and lays the options over it.
 Expected<Scene> make_scene(const SceneOptions& options);

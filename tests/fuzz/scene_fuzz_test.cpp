@@ -54,7 +54,10 @@ const std::vector<std::string> k_pieces{"[",
                                         "[terrain.relief.x]",
                                         "height_m = [1, [2, [3]]]",
                                         "kind = \"none\"\n",
-                                        "law = \"world_area\"\n"};
+                                        "law = \"world_area\"\n",
+                                        "[[layer.species.season]]\nat = 0.5\n",
+                                        "[[exclude]]\npolygon = [[0, 0], [4, 0], [0, 4]]\n",
+                                        "altitude_m = [1, 2]\nslope_deg = [3, 4]\n"};
 
 std::string mutate(std::string text, std::mt19937& random) {
   const auto pick = [&](size_t count) { return count == 0 ? size_t(0) : size_t(random()) % count; };

@@ -98,6 +98,7 @@ TEST_F(FrameBlock, LayoutIsWhatTheDriverSees) {
       {"ground_radiance", offsetof(gl::FrameUniforms, ground_radiance)},
       {"eye_noise", offsetof(gl::FrameUniforms, eye_noise)},
       {"up", offsetof(gl::FrameUniforms, up)},
+      {"ground_tint", offsetof(gl::FrameUniforms, ground_tint)},
   };
   for (const auto& [name, offset] : members) {
     const GLuint index =

@@ -91,7 +91,7 @@ class Patch {
     view_ = view;
     triangles_ = std::move(triangles);
     measure_screen();
-    seed(layer_, view_, map_, triangles_, seeding_);
+    seed(layer_, view_, map_, triangles_, seeding_, &exclusions);
     frame_.upload(view_, lighting, 0, samples);
     const auto uploaded = renderer_->upload(seeding_, triangles_, view_);
     EXPECT_TRUE(uploaded) << uploaded.error().message;
@@ -114,6 +114,13 @@ class Patch {
   const gl::GroundTextures& ground() const { return *ground_; }
   const Layer& layer() const { return layer_; }
 
+  /// Of the twin and of the renderer.
+  void set_season(float season) {
+    layer_.season = season;
+    renderer_->set_season(season);
+  }
+
+  Exclusions exclusions;
   gl::Lighting lighting;
   int samples = 1;
   int level = 8;  ///< Of the triangles: 2 * 2^level of them.

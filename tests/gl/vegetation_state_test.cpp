@@ -26,7 +26,8 @@ GlState left_by_stage(const gl::Bindings& bindings, std::initializer_list<GLuint
 }
 
 GlState left_by_classify(const gl::Bindings& bindings, GLuint framebuffer) {
-  GlState left = left_by_stage(bindings, {bindings.base_map_raw, bindings.triangles, bindings.surface});
+  GlState left = left_by_stage(
+      bindings, {bindings.base_map_raw, bindings.triangles, bindings.surface, bindings.exclusions, bindings.placement});
   left["transform feedback"] = {0};
   left["draw framebuffer"] = {double(framebuffer)};
   left["rasterizer discard"] = {0};
@@ -73,8 +74,9 @@ void expect_draw_leaves_what_it_says(const Layer& layer, int samples) {
   const GlState before = capture_state();
   patch.draw();
   const gl::Bindings& bindings = patch.frame().bindings();
-  GlState left = left_by_stage(
-      bindings, {bindings.base_map, bindings.base_map_raw, bindings.triangles, bindings.surface, bindings.blade_shape});
+  GlState left =
+      left_by_stage(bindings, {bindings.base_map, bindings.base_map_raw, bindings.triangles, bindings.surface,
+                               bindings.exclusions, bindings.placement, bindings.blade_shape});
   left["patch vertices"] = {1};
   expect_only_changed(before, capture_state(), left);
   EXPECT_GT(patch.renderer().stats(true).primitives, 0u);
@@ -110,6 +112,8 @@ TEST_F(VegetationState, BindingPointsCanBeMoved) {
   bindings.triangles = 12;
   bindings.surface = 2;
   bindings.blade_shape = 11;
+  bindings.placement = 6;
+  bindings.exclusions = 7;
   Patch patch(grass_and_soil(), plain_map(k_side, 8, k_green), bindings);
   auto target = host::RenderTarget::create({32, 24}, 1);
   ASSERT_TRUE(target) << target.error().message;

@@ -585,9 +585,8 @@ TEST(Scene, BuiltInScenesAreSound) {
   EXPECT_EQ(puget->height_scale, 0.1);
   const auto missing = builtin_scene("moon");
   ASSERT_FALSE(missing);
-  EXPECT_NE(
-      missing.error().message.find("\"moon\", expected one of \"border\", \"flowers\", \"meadow\", \"puget\""),
-      std::string::npos)
+  EXPECT_NE(missing.error().message.find("\"moon\", expected one of \"border\", \"flowers\", \"meadow\", \"puget\""),
+            std::string::npos)
       << missing.error().message;
 }
 
@@ -627,6 +626,10 @@ TEST(Scene, ThePageDescribesEveryKey) {
   expect_described(scene_file::tuft_schema(), page);
   expect_described(scene_file::flower_schema(), page);
   expect_described(scene_file::custom_schema(), page);
+  expect_described(scene_file::species_season_schema(), page);
+  expect_described(scene_file::season_schema(), page);
+  expect_described(scene_file::ground_season_schema(), page);
+  expect_described(scene_file::exclude_schema(), page);
 }
 
 }  // namespace

@@ -247,7 +247,7 @@ TEST(Seed, RecordsAreRelativeToTheEyeAndTheMap) {
   EXPECT_EQ(r.id_low, 0x9abcdef0u);
   EXPECT_EQ(r.id_high, 0x12345678u);
   EXPECT_EQ(r.surface, 7u);
-  EXPECT_EQ(r.area, 2.0f);
+  EXPECT_EQ(r.slope, 0.0f);  // no species asks for it
   EXPECT_EQ(r.surface_z, -22.0f);
   // 25.5 m from the west is texel 12.75; 30.5 m from the north row 15.25.
   EXPECT_EQ(r.texel, glm::ivec2(12, 15));

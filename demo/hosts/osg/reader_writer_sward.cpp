@@ -12,6 +12,8 @@
 #include <osgDB/FileUtils>
 #include <osgDB/Registry>
 
+#include "host/scene_maps.h"
+
 namespace sward::osg_host {
 
 namespace {
@@ -40,6 +42,7 @@ class ReaderWriterSward : public osgDB::ReaderWriter {
     if (!acceptsExtension(osgDB::getLowerCaseFileExtension(name))) return ReadResult::FILE_NOT_HANDLED;
     auto scene = read_scene(name, options);
     if (!scene) return failed(scene.error());
+    if (auto loaded = host::load_maps(*scene); !loaded) return failed(loaded.error());
     auto terrain = host::load_terrain(*scene, true);
     if (!terrain) return failed(terrain.error());
     osg::ref_ptr<osg::Group> group(new osg::Group);

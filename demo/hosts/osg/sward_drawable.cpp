@@ -128,6 +128,7 @@ void SwardDrawable::draw(osg::State& state, host::SceneRenderer& renderer, doubl
   }
   gl::Lighting lighting = gl::Lighting::clear_day(scene_.sun_azimuth, scene_.sun_elevation);
   lighting.haze_distance_m = scene_.haze_distance_m;
+  lighting.ground_tint = ground_tint(scene_.ground_seasons, scene_.season);
   const auto framebuffer = GLuint(integer(GL_DRAW_FRAMEBUFFER_BINDING));
   const int samples = std::max(integer(GL_SAMPLES), 1);
   const StateGuard guard;

@@ -1,9 +1,13 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 
+#include <algorithm>
+#include <optional>
+
 #include "host/egl_context.h"
 #include "host/render_target.h"
 #include "host/scene_frame.h"
+#include "sward/arguments.h"
 #include "sward/commands/commands.h"
 #include "sward/commands/flight_options.h"
 #include "sward/output/figures.h"
@@ -17,7 +21,9 @@ namespace {
 struct PlantsOptions {
   SceneOptions scene;
   PathOptions path;
-  size_t at = 0;
+  std::optional<size_t> at;
+  std::string region;  ///< "x0,y0,x1,y1"
+  size_t most = 1000000;
   bool gpu = false;
   std::string output;
 };
@@ -44,6 +50,7 @@ Expected<std::vector<Plant>> plants_by_cpu(const Scene& scene, const host::Scene
   roam.target_px = scene.target_px;
   auto frame = host::SceneFrame::create(scene.layers, terrain, roam);
   if (!frame) return tl::unexpected(frame.error());
+  if (auto excluded = frame->exclude(scene.exclusions); !excluded) return tl::unexpected(excluded.error());
   for (size_t i = 0; i <= at; ++i) {
     if (auto streamed = frame->stream(path[i].view, host::Streaming::wait); !streamed)
       return tl::unexpected(streamed.error());
@@ -70,7 +77,49 @@ Expected<std::vector<Plant>> plants_by_gpu(const Scene& scene, const host::Scene
   return renderer->plants_gpu(path[at].view, target->framebuffer());
 }
 
+Expected<void> check_choice(const PlantsOptions& options) {
+  if (options.region.empty()) {
+    return options.at ? Expected<void>()
+                      : fail("name a frame of the flight (--at FRAME), or a place (--region x0,y0,x1,y1)");
+  }
+  if (options.at || options.gpu) return fail("--region lists a place and not a frame: it goes without --at and --gpu");
+  return {};
+}
+
+// As drawn near by, whatever view.
+Expected<std::vector<Plant>> plants_in_region(const Scene& scene, const host::SceneTerrain& terrain,
+                                              const PlantsOptions& options) {
+  if (terrain.world() != nullptr)
+    return fail("--region needs ground that is all there, and this is a world; take a frame over it (--flight, --at)");
+  auto ends = parse_numbers(options.region, 4, 4);
+  if (!ends) return tl::unexpected(ends.error());
+  const std::vector<double>& e = *ends;
+  const PlantRegion region = PlantRegion::rectangle({e[0], e[1]}, {e[2], e[3]});
+  Exclusions exclusions;
+  for (const ExclusionShape& shape : scene.exclusions)
+    if (auto added = exclusions.add(shape); !added) return tl::unexpected(added.error());
+  std::vector<Plant> all;
+  uint32_t first_species = 0;
+  for (const Layer& layer : scene.layers) {
+    auto grown = query_plants(layer, terrain.surface(), terrain.colors(), region,
+                              {options.most - std::min(options.most, all.size()), &exclusions, scene.sun_azimuth});
+    if (!grown) return tl::unexpected(grown.error());
+    for (Plant& plant : *grown) plant.species += first_species;
+    first_species += uint32_t(layer.species.size());
+    all.insert(all.end(), grown->begin(), grown->end());
+  }
+  return all;
+}
+
+Expected<void> write_plants(const PlantsOptions& options, const Expected<std::vector<Plant>>& grown) {
+  if (!grown) return tl::unexpected(grown.error());
+  if (auto written = write_file(options.output, plants_csv(*grown)); !written) return written;
+  std::printf("%zu plants\n", grown->size());
+  return {};
+}
+
 Expected<void> plants(const PlantsOptions& options) {
+  if (auto checked = check_choice(options); !checked) return checked;
   if (auto checked = check_output(options.output); !checked) return checked;
   if (auto checked = check_path(options.path); !checked) return checked;
   auto scene = make_scene(options.scene);
@@ -83,26 +132,32 @@ Expected<void> plants(const PlantsOptions& options) {
   }
   auto terrain = make_terrain(*scene, options.scene);
   if (!terrain) return tl::unexpected(terrain.error());
+  if (!options.region.empty()) return write_plants(options, plants_in_region(*scene, **terrain, options));
   auto path = make_path(options.path, **terrain);
   if (!path) return tl::unexpected(path.error());
-  if (auto checked = check_frame(options.at, *path); !checked) return checked;
-  auto grown = options.gpu ? plants_by_gpu(*scene, **terrain, *path, options.at)
-                           : plants_by_cpu(*scene, **terrain, *path, options.at);
-  if (!grown) return tl::unexpected(grown.error());
-  if (auto written = write_file(options.output, plants_csv(*grown)); !written) return written;
-  std::printf("%zu plants\n", grown->size());
-  return {};
+  if (auto checked = check_frame(*options.at, *path); !checked) return checked;
+  auto grown = options.gpu ? plants_by_gpu(*scene, **terrain, *path, *options.at)
+                           : plants_by_cpu(*scene, **terrain, *path, *options.at);
+  return write_plants(options, grown);
 }
 
 }  // namespace
 
 Command add_plants(CLI::App& parent) {
   auto options = std::make_shared<PlantsOptions>();
-  CLI::App* app = parent.add_subcommand("plants", "List the plants of one frame of a camera path");
+  CLI::App* app = parent.add_subcommand("plants", "List the plants of one frame of a camera path, or of a place");
   app->footer("species counts through the layers in the scene's order, bare ground included; angles in radians.");
   add_scene_options(*app, options->scene, true);
   add_path_options(*app, options->path);
-  app->add_option("--at", options->at, "Frame of the flight")->type_name("FRAME")->required();
+  add_season_option(*app, options->scene);
+  app->add_option("--at", options->at, "Frame of the flight")->type_name("FRAME");
+  app->add_option("--region", options->region,
+                  "All plants of a rectangle, at full density, instead of a frame's; metres")
+      ->type_name("x0,y0,x1,y1")
+      ->check(as_check([](const std::string& text) { return parse_numbers(text, 4, 4); }));
+  app->add_option("--most", options->most, "More plants in a region are an error")
+      ->type_name("N")
+      ->capture_default_str();
   app->add_flag("--gpu", options->gpu, "As the GPU grows them, read back; without: the CPU twin, no GL");
   app->add_option("-o,--output", options->output, "CSV file")->type_name("FILE")->required();
   return {app, [options] { return plants(*options); }};

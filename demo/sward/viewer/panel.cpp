@@ -55,6 +55,7 @@ void edit_light_and_budget(PanelState& state) {
   if (ImGui::CollapsingHeader("Sun and haze", ImGuiTreeNodeFlags_DefaultOpen)) {
     ImGui::SliderFloat("azimuth", &state.sun_azimuth_degrees, -180, 180, "%.0f deg");
     ImGui::SliderFloat("elevation", &state.sun_elevation_degrees, -10, 90, "%.0f deg");
+    ImGui::SliderFloat("season", &state.season, 0, 1, "%.3f");
     ImGui::SliderFloat("haze", &state.haze_distance_m, 500, 100000, "%.0f m", ImGuiSliderFlags_Logarithmic);
   }
   if (!ImGui::CollapsingHeader("Terrain budget", ImGuiTreeNodeFlags_DefaultOpen)) return;

@@ -15,6 +15,8 @@ namespace sward::tool {
 struct PanelState {
   float sun_azimuth_degrees = 0, sun_elevation_degrees = 30;
   float haze_distance_m = 12000;
+  float season = 0;  ///< Time of the year, 0..1.
+  std::vector<GroundSeason> ground_seasons;
   int max_triangles = 20000;
   float target_px = 0;
   bool vegetation = true;

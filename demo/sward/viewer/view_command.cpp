@@ -46,6 +46,8 @@ PanelState start_panel(const Scene& scene) {
   state.sun_azimuth_degrees = glm::degrees(scene.sun_azimuth);
   state.sun_elevation_degrees = glm::degrees(scene.sun_elevation);
   state.haze_distance_m = scene.haze_distance_m;
+  state.season = scene.season;
+  state.ground_seasons = scene.ground_seasons;
   state.max_triangles = int(scene.max_triangles);
   state.target_px = scene.target_px;
   state.layers = scene.layers;
@@ -56,6 +58,8 @@ PanelState start_panel(const Scene& scene) {
 // Layers are applied when the mouse lets go: each change compiles programs.
 void apply_panel(PanelState& state, host::SceneRenderer& renderer) {
   renderer.set_vegetation(state.vegetation);
+  renderer.set_season(state.season);
+  for (Layer& layer : state.layers) layer.season = state.season;
   if (state.budget_changed) {
     RoamOptions roam = renderer.mesh().options();
     roam.max_triangles = uint32_t(state.max_triangles);
@@ -86,6 +90,7 @@ gl::Lighting panel_lighting(const PanelState& state) {
   gl::Lighting lighting =
       gl::Lighting::clear_day(glm::radians(state.sun_azimuth_degrees), glm::radians(state.sun_elevation_degrees));
   lighting.haze_distance_m = state.haze_distance_m;
+  lighting.ground_tint = ground_tint(state.ground_seasons, state.season);
   return lighting;
 }
 
@@ -163,6 +168,7 @@ Command add_view(CLI::App& parent) {
   add_camera_option(*app, options->scene);
   add_sun_option(*app, options->scene);
   add_shaders_option(*app, options->scene);
+  add_season_option(*app, options->scene);
   app->add_option("--size", options->size, "Pixels")
       ->type_name("WxH")
       ->check(as_check(parse_size))

@@ -21,7 +21,8 @@ static_assert(offsetof(FrameUniforms, horizon_radiance) == 272);
 static_assert(offsetof(FrameUniforms, ground_radiance) == 288);
 static_assert(offsetof(FrameUniforms, eye_noise) == 304);
 static_assert(offsetof(FrameUniforms, up) == 320);
-static_assert(sizeof(FrameUniforms) == 336);
+static_assert(offsetof(FrameUniforms, ground_tint) == 336);
+static_assert(sizeof(FrameUniforms) == 352);
 
 namespace {
 
@@ -58,6 +59,7 @@ FrameUniforms make_frame_uniforms(const View& view, const Lighting& lighting, do
   u.eye_noise = glm::vec4(glm::vec2(wrapped(view.eye.x, k_noise_period), wrapped(view.eye.y, k_noise_period)),
                           float(view.eye.z), float(samples));
   u.up = glm::vec4(0.0f, 0.0f, 1.0f, 0.0f);
+  u.ground_tint = glm::vec4(lighting.ground_tint, 0.0f);
   return u;
 }
 

@@ -35,7 +35,7 @@ bool same(const View& a, const View& b) {
 
 bool same(const FixedLevelOptions& a, const FixedLevelOptions& b) {
   return a.level == b.level && a.horizon_m == b.horizon_m && a.canopy_m == b.canopy_m &&
-         a.skip_back_faces == b.skip_back_faces;
+         a.skip_back_faces == b.skip_back_faces && a.altitudes == b.altitudes;
 }
 
 bool meet(const LatticeBox& a, const LatticeBox& b) {
@@ -43,8 +43,8 @@ bool meet(const LatticeBox& a, const LatticeBox& b) {
 }
 
 // Copies the elements that `mask` names to the front of `to`, run by run.
-template <class T>
-void pack(const std::array<T, k_chunk_size>& from, uint64_t mask, T* to) {
+template <class From, class T>
+void pack(const From& from, uint64_t mask, T* to) {
   for (uint64_t rest = mask; rest != 0;) {
     const int first = std::countr_zero(rest), length = std::countr_one(rest >> first);
     std::memcpy(to, from.data() + first, size_t(length) * sizeof(T));
@@ -197,7 +197,7 @@ void Memory::keep_or_release(const KeptChunk& kept) {
 
 bool Memory::refresh(const FixedLevelWalk& walk, size_t i) {
   Chunk& chunk = *chunks_[i];
-  const bool changed = !chunk.has_static;
+  const bool changed = !chunk.has_static || chunk.altitude.empty() == options_.altitudes;
   if (changed) build_static(walk, visits_[i], depth_, chunk);
   return refresh_drawn(walk.tree(), visits_[i], depth_, chunk) || changed;
 }
@@ -267,6 +267,11 @@ void Memory::write_chunk(size_t i, const ChunkResult& result, Offset at, const F
   pack(chunk.area, result.visible, &to.area[at.triangle]);
   pack(result.screen_area, result.visible, &to.screen_area[at.triangle]);
   pack(result.distance, result.visible, &to.distance[at.triangle]);
+  if (chunk.altitude.empty()) {
+    std::fill_n(&to.altitude[at.triangle], std::popcount(result.visible), glm::vec3(NAN));
+  } else {
+    pack(chunk.altitude, result.visible, &to.altitude[at.triangle]);
+  }
   const uint64_t first = visits_[i].triangle.id.bits + (uint64_t(depth_) << 58);
   const int shift = k_max_level - options_.level;
   TriangleId* id = &to.id[at.triangle];

@@ -47,6 +47,9 @@ class StaticBuilder {
     chunk_.to_right[index] = glm::vec3(glm::vec2(right - apex), 0);
     const glm::dvec2 gradient = surface_.data_gradient((apex + left + right) / 3.0);
     chunk_.area[index] = float(level_area_ * std::sqrt(1.0 + glm::dot(gradient, gradient)));
+    if (!chunk_.altitude.empty()) {
+      chunk_.altitude[index] = glm::vec3(surface_.height(apex), surface_.height(left), surface_.height(right));
+    }
     chunk_.solid |= uint64_t(1) << index;
   }
 
@@ -154,6 +157,7 @@ void build_static(const FixedLevelWalk& walk, const ChunkVisit& visit, int depth
   const TriangleCorners corners = lattice_of(visit.triangle);
   chunk.solid = 0;
   chunk.box = box_of(corners);
+  chunk.altitude.assign(walk.options().altitudes ? k_chunk_size : 0, glm::vec3(0));
   StaticBuilder(walk, chunk).descend(corners, visit.triangle.cover, depth, 0);
   chunk.has_static = true;
   chunk.has_drawn = false;  // heights stand beside what was just written

@@ -37,6 +37,8 @@ struct alignas(64) Chunk {
   std::vector<ChunkNode> nodes;
 
   std::array<float, k_chunk_size> area{};               ///< Static.
+  /// Static: z of the finest data at the corners, world; empty where the options do not ask for it.
+  std::vector<glm::vec3> altitude;
   std::array<float, k_chunk_size> apex_z{};             ///< Against the chunk's apex.
   std::array<float, k_chunk_size> left_z{}, right_z{};  ///< z of the edges once more, side by side.
   std::array<glm::vec3, k_chunk_size> to_left{}, to_right{};

@@ -45,6 +45,7 @@ void FixedTriangles::Columns::grow(size_t count) {
   area.resize(count);
   screen_area.resize(count);
   distance.resize(count);
+  altitude.resize(count);
 }
 
 FixedTriangles::FixedTriangles() : nodes_(1) {}
@@ -90,7 +91,8 @@ FixedTriangles::~FixedTriangles() = default;
 FixedTriangle FixedTriangles::operator[](size_t i) const {
   SWARD_ASSERT(i < size(), "no such triangle");
   const Columns& c = columns_;
-  return {c.apex[i], c.to_left[i], c.to_right[i], c.id[i], c.surface[i], c.area[i], c.screen_area[i], c.distance[i]};
+  return {c.apex[i], c.to_left[i],     c.to_right[i], c.id[i],      c.surface[i],
+          c.area[i], c.screen_area[i], c.distance[i], c.altitude[i]};
 }
 
 void FixedTriangles::push_back(const FixedTriangle& triangle) {
@@ -108,6 +110,7 @@ void FixedTriangles::set(size_t i, const FixedTriangle& triangle) {
   columns_.area[i] = triangle.area;
   columns_.screen_area[i] = triangle.screen_area;
   columns_.distance[i] = triangle.distance;
+  columns_.altitude[i] = triangle.altitude;
   ++contents_;
 }
 
@@ -137,7 +140,8 @@ FixedTriangles::Writer FixedTriangles::write(size_t triangles, size_t nodes) {
   Columns& c = columns_;
   return {{c.apex.data(), count_},        {c.to_left.data(), count_},  {c.to_right.data(), count_},
           {c.id.data(), count_},          {c.surface.data(), count_},  {c.area.data(), count_},
-          {c.screen_area.data(), count_}, {c.distance.data(), count_}, {nodes_.data(), node_count_}};
+          {c.screen_area.data(), count_}, {c.distance.data(), count_}, {nodes_.data(), node_count_},
+          {c.altitude.data(), count_}};
 }
 
 int level_for_area(const Lattice& lattice, double area_m2) {

@@ -98,6 +98,7 @@ struct Emitter {
     triangle.area = float(area);
     triangle.screen_area = projected_area(view, p);
     triangle.distance = float(distance_to_triangle(p));
+    triangle.altitude = glm::vec3(glm::dvec3(p.apex.z, p.left.z, p.right.z) + view.eye.z);
     out.push_back(triangle);
   }
 

@@ -48,6 +48,7 @@ Expected<Scene> parse(std::string_view text, const std::string& name) {
   if (auto read = scene_file::read_fields(parsed.table(), scene_file::scene_schema(), scene, context); !read) {
     return tl::unexpected(read.error());
   }
+  for (Layer& layer : scene.layers) layer.season = scene.season;
   return scene;
 }
 
@@ -69,6 +70,16 @@ Expected<std::string> read_text(const std::string& path) {
 }
 
 }  // namespace
+
+glm::vec3 ground_tint(std::span<const GroundSeason> frames, float season) {
+  // The same ease as the plants have.
+  Species carrier;
+  for (const GroundSeason& frame : frames) {
+    carrier.seasons.push_back({frame.at, {}});
+    carrier.seasons.back().values.tint = frame.tint;
+  }
+  return frames.empty() ? glm::vec3(1.0f) : season_values(carrier, season).tint;
+}
 
 std::string Scene::resolve(const std::string& path) const {
   const std::filesystem::path given(path);

@@ -159,6 +159,20 @@ Key<FlowerShape> color_key(std::string name, glm::vec3 FlowerShape::*member) {
           {}};
 }
 
+/// A key of a season's values, read as the species' key of the same name.
+template <class V>
+Key<SeasonFrame> as_season(Key<Species> key, V SeasonValues::*to, V Species::*from) {
+  return {key.name,
+          key.expected,
+          [=](const toml::node& node, SeasonFrame& frame) {
+            Species read;
+            if (!key.read(node, read)) return false;
+            frame.values.*to = read.*from;
+            return true;
+          },
+          {}};
+}
+
 Key<FlowerShape> stem_key() {
   Key<FlowerShape> key = color_key("stem_color", &FlowerShape::stem_color);
   key.read = [read = key.read](const toml::node& node, FlowerShape& flower) {
@@ -234,6 +248,48 @@ Expected<void> check_flower(const toml::table& table, const FlowerShape& flower,
   return {};
 }
 
+Key<SeasonFrame> season_share(const std::string& name, float SeasonValues::*member) {
+  return {name,
+          "a number in [0, 1]",
+          [=](const toml::node& node, SeasonFrame& frame) {
+            const auto value = as_number(node);
+            return value && store(*value, within(0, 1), frame.values.*member);
+          },
+          {}};
+}
+
+/// A list of frames, each of which starts as `first` makes it and stands later in the year than the one before.
+template <class T, class Frame, class First>
+Key<T> frames(std::string name, std::vector<Frame> T::*member, Schema<Frame> schema, First first) {
+  const std::string expected = "a list of tables, each headed " + schema.title;
+  return {name, expected, {}, [=](const toml::node& node, T& target, const Context& context) -> Expected<void> {
+            const toml::array* array = node.as_array();
+            if (array == nullptr) return context.fail_at(node, name + " is no list: expected " + expected);
+            for (const toml::node& element : *array) {
+              if (!element.is_table()) return context.fail_at(element, quoted(element) + ": expected " + expected);
+              Frame frame = first(target);
+              if (auto read = read_fields(*element.as_table(), schema, frame, context); !read) return read;
+              const bool later = (target.*member).empty() || frame.at > (target.*member).back().at;
+              if (!later) return context.fail_at(element, "at is not above that of the frame before");
+              (target.*member).push_back(frame);
+            }
+            return {};
+          }};
+}
+
+/// A frame of a species begins as the species is: so the species' own keys must have been read.
+Expected<void> check_season_order(const toml::table& table, const Context& context) {
+  bool seasons = false;
+  for (const auto& [name, node] : entries_in_order(table)) {
+    if (name->str() == "season") seasons = true;
+    for (const char* key : {"color", "hsv", "tint", "age_tint", "age_share"}) {
+      if (seasons && name->str() == key)
+        return context.fail_at(name->source(), std::string(key) + " stands after season, expected before it");
+    }
+  }
+  return {};
+}
+
 Expected<void> check_custom(const toml::table& table, const CustomKind&, const Context& context) {
   if (table.contains("functions")) return {};
   return context.fail_at(table, "[layer.species.custom] has no functions, expected functions = \"FILE\"");
@@ -279,8 +335,14 @@ Expected<void> check_kind(const toml::table& table, const Species& species, cons
   return refuse(table, {"leaves"}, "here, expected only with kind = \"leaf\" or \"fern\"", context);
 }
 
+Expected<void> check_at(const toml::table& table, const Context& context) {
+  if (table.contains("at")) return {};
+  return context.fail_at(table, "a season's frame has no time of the year, expected at = 0 to 1");
+}
+
 Expected<void> check_species(const toml::table& table, const Species& species, const Context& context) {
   if (!table.contains("name")) return context.fail_at(table, "a species has no name, expected name = \"...\"");
+  if (auto ordered = check_season_order(table, context); !ordered) return ordered;
   if (table.contains("color") && table.contains("hsv")) {
     return context.fail_at(*table.get("hsv"), "color and hsv contradict each other, expected one of them");
   }
@@ -301,6 +363,42 @@ Expected<void> check_species(const toml::table& table, const Species& species, c
     return fits;
   }
   return check_kind(table, species, context);
+}
+
+// ---- [[exclude]] ----
+
+Key<ExclusionShape> disc_key() {
+  return {"disc",
+          "[x, y, radius], finite numbers (metres), the radius in (0, 1000000]",
+          [](const toml::node& node, ExclusionShape& shape) {
+            const auto disc = as_numbers<3>(node, {any_number(), any_number(), above_to(0, 1e6)});
+            if (!disc) return false;
+            shape.centre = {(*disc)[0], (*disc)[1]};
+            shape.radius_m = (*disc)[2];
+            return true;
+          },
+          {}};
+}
+
+Key<ExclusionShape> polygon_key() {
+  return {"polygon",
+          "a list of 3 to 4096 corners [x, y], finite numbers (metres)",
+          [](const toml::node& node, ExclusionShape& shape) {
+            const toml::array* array = node.as_array();
+            if (array == nullptr || array->size() < 3 || array->size() > 4096) return false;
+            for (const toml::node& element : *array) {
+              const auto corner = as_numbers<2>(element, {any_number(), any_number()});
+              if (!corner) return false;
+              shape.corners.emplace_back((*corner)[0], (*corner)[1]);
+            }
+            return true;
+          },
+          {}};
+}
+
+Expected<void> check_exclude(const toml::table& table, const ExclusionShape& shape, const Context& context) {
+  if (auto valid = shape.validate(); !valid) return context.fail_at(table, valid.error().message);
+  return {};
 }
 
 // ---- [[layer]] ----
@@ -330,11 +428,16 @@ Expected<void> check_layer(const toml::table& table, const Layer& layer, const C
   return {};
 }
 
-Expected<void> check_scene(const toml::table& table, const Scene&, const Context& context) {
+Expected<void> check_scene(const toml::table& table, const Scene& scene, const Context& context) {
   if (!table.contains("terrain")) {
     return context.fail_at(table,
                            "the scene has no [terrain], expected one with generator = \"meadow\", height = \"FILE\" "
                            "or world = \"FOLDER\"");
+  }
+  for (const ExclusionShape& shape : scene.exclusions) {
+    const auto named = [&](const Layer& layer) { return layer.name == shape.layer; };
+    if (!shape.layer.empty() && std::none_of(scene.layers.begin(), scene.layers.end(), named))
+      return context.fail_at(*table.get("exclude"), "there is no layer \"" + shape.layer + "\" to exclude");
   }
   return refuse_same_names(table, "layer", context);
 }
@@ -473,8 +576,58 @@ const Schema<Species>& species_schema() {
        number("taper", &S::taper, within(0, 1)),
        table<S, TuftShape>("tuft", &S::tuft, tuft_schema()),
        table<S, FlowerShape>("flower", &S::flower, flower_schema()),
-       table<S, CustomKind>("custom", &S::custom, custom_schema())},
+       table<S, CustomKind>("custom", &S::custom, custom_schema()),
+       min_max_angle("slope_deg", &S::slope, within(0, 90)),
+       angle("slope_soft_deg", &S::slope_soft, within(0, 90)),
+       min_max("altitude_m", &S::altitude_m, any_number(), "metres"),
+       number("altitude_soft_m", &S::altitude_soft_m, at_least(0), "metres"),
+       number("above_water_m", &S::above_water_m, any_number(), "metres"),
+       text("mask", &S::mask_file, "the path of an image"),
+       frames("season", &S::seasons, species_season_schema(),
+              [](const S& s) {
+                return SeasonFrame{0.0f, {s.reference_hsv, s.tint, s.age_tint, s.age_share, 1.0f, 1.0f}};
+              })},
       check_species};
+  return schema;
+}
+
+const Schema<SeasonFrame>& species_season_schema() {
+  using S = Species;
+  using V = SeasonValues;
+  static const Schema<SeasonFrame> schema{
+      "[[layer.species.season]]",
+      {number("at", &SeasonFrame::at, {.low = 0, .high = 1, .high_open = true}),
+       as_season(hex_color_key(), &V::reference_hsv, &S::reference_hsv),
+       as_season(hsv_key(), &V::reference_hsv, &S::reference_hsv),
+       as_season(triple("tint", &S::tint, within(0, 10000)), &V::tint, &S::tint),
+       as_season(triple("age_tint", &S::age_tint, within(0, 10000)), &V::age_tint, &S::age_tint),
+       as_season(number("age_share", &S::age_share, within(0, 1)), &V::age_share, &S::age_share),
+       season_share("height", &V::height), season_share("density", &V::density)},
+      [](const toml::table& table, const SeasonFrame&, const Context& context) { return check_at(table, context); }};
+  return schema;
+}
+
+const Schema<GroundSeason>& ground_season_schema() {
+  static const Schema<GroundSeason> schema{
+      "[[season.ground]]",
+      {number("at", &GroundSeason::at, {.low = 0, .high = 1, .high_open = true}),
+       triple("tint", &GroundSeason::tint, within(0, 10000))},
+      [](const toml::table& table, const GroundSeason&, const Context& context) { return check_at(table, context); }};
+  return schema;
+}
+
+const Schema<Scene>& season_schema() {
+  static const Schema<Scene> schema{
+      "[season]",
+      {number("at", &Scene::season, within(0, 1)),
+       frames("ground", &Scene::ground_seasons, ground_season_schema(), [](const Scene&) { return GroundSeason{}; })},
+      {}};
+  return schema;
+}
+
+const Schema<ExclusionShape>& exclude_schema() {
+  static const Schema<ExclusionShape> schema{
+      "[[exclude]]", {text("layer", &ExclusionShape::layer, "a word"), disc_key(), polygon_key()}, check_exclude};
   return schema;
 }
 
@@ -494,6 +647,9 @@ const Schema<Layer>& layer_schema() {
        number("falloff", &L::falloff, above_to(0, 16)), whole_number("ceiling", &L::ceiling, within(1, 1048576)),
        flag("plain", &L::plain), number("full_segments_m", &L::full_segments_m, above(0), "metres"),
        flag("shadows", &L::shadows), number("shadow_distance_m", &L::shadow_distance_m, at_least(0), "metres"),
+       number("water_level_m", &L::water_level_m, any_number(), "metres"),
+       text("mask", &L::mask_file, "the path of an image"),
+       text("distribution", &L::distribution_file, "the path of an image"),
        tables<L, Species>("species", &L::species, species_schema())},
       check_layer};
   return schema;
@@ -504,7 +660,9 @@ const Schema<Scene>& scene_schema() {
       "the scene",
       {text("name", &Scene::name, "a word"), section("terrain", terrain_schema()),
        section("base_map", base_map_schema()), section("sun", sun_schema()), section("haze", haze_schema()),
-       section("camera", camera_schema()), tables<Scene, Layer>("layer", &Scene::layers, layer_schema())},
+       section("camera", camera_schema()), tables<Scene, Layer>("layer", &Scene::layers, layer_schema()),
+       section("season", season_schema()),
+       tables<Scene, ExclusionShape>("exclude", &Scene::exclusions, exclude_schema())},
       check_scene};
   return schema;
 }

@@ -21,5 +21,9 @@ const Schema<Species>& species_schema();
 const Schema<TuftShape>& tuft_schema();
 const Schema<FlowerShape>& flower_schema();
 const Schema<CustomKind>& custom_schema();
+const Schema<SeasonFrame>& species_season_schema();
+const Schema<Scene>& season_schema();
+const Schema<GroundSeason>& ground_season_schema();
+const Schema<ExclusionShape>& exclude_schema();
 
 }  // namespace sward::scene_file

@@ -193,6 +193,21 @@ Key<T> min_max(std::string name, FloatRange T::*member, Interval range, std::str
           {}};
 }
 
+/// `[min, max]` in degrees in the file, radians in memory.
+template <class T>
+Key<T> min_max_angle(std::string name, FloatRange T::*member, Interval range) {
+  return {std::move(name),
+          with_unit("[min, max], two numbers" + range.text() + " with min <= max", "degrees"),
+          [=](const toml::node& node, T& target) {
+            const auto values = as_numbers<2>(node, {range, range});
+            if (!values || (*values)[0] > (*values)[1]) return false;
+            constexpr double k_radians = std::numbers::pi / 180.0;
+            target.*member = {float((*values)[0] * k_radians), float((*values)[1] * k_radians)};
+            return true;
+          },
+          {}};
+}
+
 /// A table whose keys fill the same object.
 template <class T>
 Key<T> section(std::string name, Schema<T> schema) {

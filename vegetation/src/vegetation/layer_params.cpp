@@ -3,9 +3,55 @@
 
 #include "vegetation/layer_params.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sward {
+
+namespace {
+
+/// Reference colours move in steps: between two of them plants are chosen by both (common_placement.glsl).
+constexpr double k_season_steps = 24;
+
+struct SeasonStep {
+  float now, next, way;
+};
+SeasonStep season_step(float season) {
+  const double place = (double(season) - std::floor(double(season))) * k_season_steps;
+  const double step = std::floor(place);
+  return {float(step / k_season_steps), float((step + 1) / k_season_steps), float(place - step)};
+}
+
+bool references_move(const Layer& layer, const SeasonStep& step) {
+  return std::any_of(layer.species.begin(), layer.species.end(), [&](const Species& s) {
+    return season_values(s, step.now).reference_hsv != season_values(s, step.next).reference_hsv;
+  });
+}
+
+float mask_number(const std::vector<const GrayMap*>& masks, const GrayMap* mask) {
+  const auto found = std::find(masks.begin(), masks.end(), mask);
+  return found == masks.end() ? 0.0f : float(found - masks.begin() + 1);
+}
+
+}  // namespace
+
+MapGeometry classification_map(const Layer& layer, const MapGeometry& base) {
+  return layer.distribution ? MapGeometry{base.size, {layer.distribution->width, layer.distribution->height}} : base;
+}
+
+std::vector<const GrayMap*> masks_of(const Layer& layer) {
+  std::vector<const GrayMap*> masks;
+  const auto add = [&](const GrayMap* mask) {
+    if (mask != nullptr && mask_number(masks, mask) == 0.0f) masks.push_back(mask);
+  };
+  add(layer.mask.get());
+  for (const Species& species : layer.species) add(species.mask.get());
+  return masks;
+}
+
+glm::vec2 mask_scale(const GrayMap& mask, const MapGeometry& map) {
+  return glm::vec2(glm::dvec2(mask.width, mask.height) / glm::dvec2(map.texels));
+}
 
 shared::LayerParams make_layer_params(const Layer& layer, const View& view, const MapGeometry& map, float sun_azimuth) {
   const float zoom = float(view.zoom());
@@ -16,6 +62,9 @@ shared::LayerParams make_layer_params(const Layer& layer, const View& view, cons
                   float(layer.species.size())};
   params.map = {float(texels_per_m.x), float(-texels_per_m.y), float(map.texels.x), float(map.texels.y)};
   params.detail = {layer.full_segments_m * zoom, layer.shadow_distance_m * zoom, float(layer.ceiling), sun_azimuth};
+  const SeasonStep step = season_step(layer.season);
+  params.place = {mask_number(masks_of(layer), layer.mask.get()), step.way, references_move(layer, step) ? 1.0f : 0.0f,
+                  0.0f};
   return params;
 }
 
@@ -68,7 +117,26 @@ void set_own(const Species& s, shared::SpeciesParams& params) {
   }
 }
 
-shared::SpeciesParams make_params(const Species& s) {
+/// Bounds that shaders can compute with, beyond all altitudes and slopes.
+constexpr float k_no_bound = 2.0e30f, k_no_altitude_bound = 1.0e29f;
+
+/// Altitudes that do not exist (-1e30, triangle_record.cpp) lie outside of every rule's range.
+glm::vec4 altitude_rule(const Species& s, float water_level) {
+  const bool rule = s.altitude_m.min > -k_unbounded || s.altitude_m.max < k_unbounded;
+  const float least = rule ? std::max(s.altitude_m.min, -k_no_altitude_bound) : -k_no_bound;
+  const float shore = s.above_water_m > -k_unbounded ? water_level + s.above_water_m : -k_no_bound;
+  return {least, std::min(s.altitude_m.max, k_no_bound), s.altitude_soft_m, shore};
+}
+
+shared::SpeciesParams make_params(const Species& base, const Layer& layer, const std::vector<const GrayMap*>& masks) {
+  const SeasonValues season = season_values(base, layer.season);
+  const SeasonStep step = season_step(layer.season);
+  Species s = base;
+  s.reference_hsv = season_values(base, step.now).reference_hsv;
+  s.tint = season.tint;
+  s.age_tint = season.age_tint;
+  s.age_share = season.age_share;
+  s.height_m = {base.height_m.min * season.height, base.height_m.max * season.height};
   shared::SpeciesParams params;
   params.reference = {s.reference_hsv, s.exponent};
   params.weights = {s.weights, least_score(s)};
@@ -79,6 +147,9 @@ shared::SpeciesParams make_params(const Species& s) {
   params.optics = {s.translucency, s.attenuation, s.specular, s.shininess};
   params.kind = {s.kind == PlantKind::none ? 0.0f : 1.0f, s.forbids ? 1.0f : 0.0f, float(s.max_segments), 0.0f};
   set_own(s, params);
+  params.altitude = altitude_rule(s, layer.water_level_m);
+  params.slope = {s.slope.min, std::min(s.slope.max, k_no_bound), s.slope_soft, mask_number(masks, s.mask.get())};
+  params.next = {season_values(base, step.next).reference_hsv, season.density};
   return params;
 }
 
@@ -87,7 +158,8 @@ shared::SpeciesParams make_params(const Species& s) {
 std::vector<shared::SpeciesParams> make_species_params(const Layer& layer) {
   std::vector<shared::SpeciesParams> params;
   params.reserve(layer.species.size());
-  for (const Species& species : layer.species) params.push_back(make_params(species));
+  const std::vector<const GrayMap*> masks = masks_of(layer);
+  for (const Species& species : layer.species) params.push_back(make_params(species, layer, masks));
   return params;
 }
 

@@ -23,7 +23,16 @@ inline MapGeometry geometry_of(const ColorMap& map) {
 /// What the uniform block of a layer holds for one view. `sun_azimuth`: radians, 0 east, counter-clockwise.
 shared::LayerParams make_layer_params(const Layer& layer, const View& view, const MapGeometry& map, float sun_azimuth);
 
-/// One entry a species, in the layer's order.
+/// What classification reads: the layer's distribution map, where it has one, in the base map's place.
+MapGeometry classification_map(const Layer& layer, const MapGeometry& base);
+
+/// The layer's masks, each once. Shaders number them from 1.
+std::vector<const GrayMap*> masks_of(const Layer& layer);
+
+/// Texels of a mask a texel of the map that classification reads.
+glm::vec2 mask_scale(const GrayMap& mask, const MapGeometry& map);
+
+/// One entry a species, in the layer's order, for the layer's season.
 std::vector<shared::SpeciesParams> make_species_params(const Layer& layer);
 
 }  // namespace sward

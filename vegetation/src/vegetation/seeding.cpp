@@ -13,6 +13,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vegetation/exclusion_index.h"
+#include "vegetation/triangle_record.h"
+
 namespace sward {
 
 namespace {
@@ -128,6 +131,40 @@ float limit_of(const Layer& layer, const View& view, float zoom, const FixedTria
   return limit_at(layer, view, zoom, triangles[i], distance);
 }
 
+/// Whether excluded shapes cover all of triangle i; else what it needs to know of them.
+bool excluded(const FixedTriangles& triangles, size_t i, Seeding& out) {
+  const size_t first = out.exclusions.size();
+  const Reach reach = out.scratch.index->shapes_near(glm::dvec2(triangles.apex()[i]), glm::vec2(triangles.to_left()[i]),
+                                                     glm::vec2(triangles.to_right()[i]), out.exclusions);
+  if (reach == Reach::all) {
+    out.exclusions.resize(first);
+    return true;
+  }
+  if (reach == Reach::some) {
+    out.exclusions.emplace_back(0.0f);
+    out.counts[i].exclusions = uint32_t(first);
+  }
+  return false;
+}
+
+/// How far triangles extend from their apex, east-west or north-south, metres.
+double largest_extent(const FixedTriangles& triangles) {
+  glm::vec2 extent(0.0f);
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    extent = glm::max(
+        extent, glm::max(glm::abs(glm::vec2(triangles.to_left()[i])), glm::abs(glm::vec2(triangles.to_right()[i]))));
+  }
+  return double(std::max(extent.x, extent.y));
+}
+
+void follow_exclusions(const Layer& layer, const FixedTriangles& triangles, const Exclusions* exclusions,
+                       Seeding& out) {
+  if (!out.scratch.index) out.scratch.index = std::make_shared<ExclusionIndex>();
+  const bool any = exclusions != nullptr && exclusions->size() > 0;
+  out.scratch.index->follow(exclusions, layer.name, any ? largest_extent(triangles) : 0.0);
+  out.exclusions.assign(1, glm::vec4(0.0f));
+}
+
 /// Seeds of every triangle; their smallest and largest number goes to n_min and n_max.
 void count_seeds(const Layer& layer, const View& view, const FixedTriangles& triangles, Seeding& out) {
   const float zoom = float(view.zoom());
@@ -138,8 +175,12 @@ void count_seeds(const Layer& layer, const View& view, const FixedTriangles& tri
   for (size_t i = 0; i < triangles.size(); ++i) {
     const float limit = limit_of(layer, view, zoom, triangles, i);
     const uint32_t submitted = limit > 0.0f ? uint32_t(std::ceil(std::min(limit, k_most_seeds))) : 0u;
-    out.counts[i] = {full > 0.0f ? area[i] * full : limit, submitted, 0};
+    out.counts[i] = {full > 0.0f ? area[i] * full : limit, submitted, 0, 0};
     if (submitted == 0) continue;
+    if (!out.scratch.index->empty() && excluded(triangles, i, out)) {
+      out.counts[i].submitted = 0;
+      continue;
+    }
     least = std::min(least, submitted);
     most = std::max(most, submitted);
   }
@@ -178,33 +219,14 @@ void lay_out_bins(const Layer& layer, Seeding& out) {
   out.source.resize(first);
 }
 
-/// Whole texel and fraction of an apex; far outside the map the whole texel saturates, where everything is outside.
-void locate_apex(const ColorMap& map, glm::dvec3 apex, TriangleRecord& record) {
-  constexpr double k_far = 1.0e9;
-  const double u = (apex.x - map.min_corner.x) / map.size.x * map.width;
-  const double v = (map.min_corner.y + map.size.y - apex.y) / map.size.y * map.height;
-  const glm::dvec2 place = glm::clamp(glm::dvec2(u, v), -k_far, k_far);
-  const glm::dvec2 whole = glm::floor(place);
-  record.texel = glm::ivec2(whole);
-  record.texel_fraction = glm::vec2(place - whole);
-}
-
-TriangleRecord make_record(const View& view, const ColorMap& map, const FixedTriangles& triangles, size_t i,
+TriangleRecord make_record(const RecordMaker& maker, const View& view, const FixedTriangles& triangles, size_t i,
                            const Seeding::Count& count) {
-  const glm::dvec3 apex = triangles.apex()[i];
-  const TriangleId id = triangles.id()[i];
-  TriangleRecord record;
-  record.apex = glm::vec3(apex - view.eye);
-  record.id_low = id.low();
-  record.to_left = triangles.to_left()[i];
-  record.id_high = id.high();
-  record.to_right = triangles.to_right()[i];
-  record.surface = triangles.surface()[i];
-  locate_apex(map, apex, record);
+  TriangleRecord record = maker.make(triangles, i);
+  record.apex = glm::vec3(triangles.apex()[i] - view.eye);
   record.limit = count.limit;
-  record.area = triangles.area()[i];
   record.surface_z = float(triangles.surface_z() - view.eye.z);
   record.submitted = count.submitted;
+  record.exclusions = count.exclusions;
   return record;
 }
 
@@ -224,21 +246,24 @@ std::array<float, k_density_bins> bin_edges(float n_min, float n_max) {
   return edges;
 }
 
-void seed(const Layer& layer, const View& view, const ColorMap& map, const FixedTriangles& triangles, Seeding& out) {
+void seed(const Layer& layer, const View& view, const ColorMap& map, const FixedTriangles& triangles, Seeding& out,
+          const Exclusions* exclusions) {
   out.bins = {};
   out.clusters = 0;
   out.surface_z_origin = triangles.surface_z();
   out.records.clear();
   out.source.clear();
+  follow_exclusions(layer, triangles, exclusions, out);
   count_seeds(layer, view, triangles, out);
   if (out.n_max == 0.0f) return;
   lay_out_bins(layer, out);
+  const RecordMaker maker(layer, map);
   std::array<uint32_t, k_density_bins> next{};
   for (int i = 0; i < k_density_bins; ++i) next[i] = out.bins[i].first;
   for (size_t i = 0; i < triangles.size(); ++i) {
     if (out.counts[i].submitted == 0) continue;
     const uint32_t place = next[out.counts[i].bin]++;
-    out.records[place] = make_record(view, map, triangles, i, out.counts[i]);
+    out.records[place] = make_record(maker, view, triangles, i, out.counts[i]);
     out.source[place] = uint32_t(i);
   }
 }

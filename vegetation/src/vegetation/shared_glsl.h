@@ -28,11 +28,12 @@ inline uvec2 mul_wide(uint a, uint b) {
 
 #define SWARD_FN inline
 #define SWARD_PRECISE
-#include "common_philox.glsl"
-#include "common_seed.glsl"
 #include "common_classify.glsl"
+#include "common_philox.glsl"
+#include "common_placement.glsl"
 #include "common_plant.glsl"
 #include "common_kinds.glsl"
+#include "common_seed.glsl"
 #undef SWARD_FN
 #undef SWARD_PRECISE
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <tuple>
 
 namespace sward {
 
@@ -155,6 +156,61 @@ void check_kind(const Species& species, Check& check) {
   if (species.kind == PlantKind::custom) check_custom(species.custom, check);
 }
 
+/// A range whose bounds may be missing (infinite); NaN is refused.
+void check_rule(const char* field, FloatRange range, Check& check) {
+  check.within((std::string(field) + ".min").c_str(), range.min, -k_infinity, std::numeric_limits<float>::max());
+  check.within((std::string(field) + ".max").c_str(), range.max, -std::numeric_limits<float>::max(), k_infinity);
+  check.require(range.min <= range.max, std::string(field) + ".max is less than " + field + ".min");
+}
+
+void check_mask(const std::shared_ptr<const GrayMap>& mask, Check& check) {
+  if (!mask) return;
+  if (auto valid = mask->validate(); !valid) check.require(false, "mask " + valid.error().message);
+}
+
+void check_placement(const Species& species, float water_level_m, Check& check) {
+  check_rule("slope", species.slope, check);
+  check.finite_from("slope_soft", species.slope_soft, 0.0f);
+  check_rule("altitude_m", species.altitude_m, check);
+  check.finite_from("altitude_soft_m", species.altitude_soft_m, 0.0f);
+  check.within("above_water_m", species.above_water_m, -k_infinity, std::numeric_limits<float>::max());
+  check.require(species.above_water_m == -k_infinity || water_level_m > -k_infinity,
+                "above_water_m needs the layer's water_level_m");
+  check_mask(species.mask, check);
+}
+
+void check_season(const SeasonFrame& frame, const std::string& name, Check& check) {
+  const SeasonValues& values = frame.values;
+  const auto field = [&](const char* member) { return name + member; };
+  check.within(field(".at").c_str(), frame.at, 0.0f, std::nextafter(1.0f, 0.0f));
+  check.within(field(".reference_hsv[0]").c_str(), values.reference_hsv.x, 0.0f, std::nextafter(1.0f, 0.0f));
+  check.within(field(".reference_hsv[1]").c_str(), values.reference_hsv.y, 0.0f, 1.0f);
+  check.within(field(".reference_hsv[2]").c_str(), values.reference_hsv.z, 0.0f, 1.0f);
+  check.components(field(".tint").c_str(), values.tint, 0.0f, 1.0e4f);
+  check.components(field(".age_tint").c_str(), values.age_tint, 0.0f, 1.0e4f);
+  check.within(field(".age_share").c_str(), values.age_share, 0.0f, 1.0f);
+  check.within(field(".height").c_str(), values.height, 0.0f, 1.0f);
+  check.within(field(".density").c_str(), values.density, 0.0f, 1.0f);
+}
+
+void check_seasons(const Species& species, Check& check) {
+  for (size_t i = 0; i < species.seasons.size(); ++i) {
+    const std::string name = "seasons[" + std::to_string(i) + "]";
+    check_season(species.seasons[i], name, check);
+    check.require(i == 0 || species.seasons[i].at > species.seasons[i - 1].at,
+                  name + ".at is not above that of the frame before");
+  }
+}
+
+void check_maps(const Layer& layer, Check& check) {
+  check.within("water_level_m", layer.water_level_m, -k_infinity, std::numeric_limits<float>::max());
+  check.require(std::isfinite(layer.season), "season is not finite");
+  check_mask(layer.mask, check);
+  if (!layer.distribution) return;
+  if (auto valid = layer.distribution->validate(); !valid)
+    check.require(false, "distribution: " + valid.error().message);
+}
+
 Expected<void> check_layer(const Layer& layer, const std::string& owner) {
   Check check(owner);
   check.require(!layer.species.empty(), "species: there is none; a layer needs at least one");
@@ -173,6 +229,7 @@ Expected<void> check_layer(const Layer& layer, const std::string& owner) {
   check.within("ceiling", float(layer.ceiling), 1.0f, k_most_seeds);
   check.finite_above("full_segments_m", layer.full_segments_m, 0.0f);
   check.finite_from("shadow_distance_m", layer.shadow_distance_m, 0.0f);
+  check_maps(layer, check);
   if (layer.law == DensityLaw::distance) {
     check.above("density times triangle_area_m2 (seeds a triangle)", layer.density * layer.triangle_area_m2, 0.0f,
                 k_most_seeds);
@@ -191,9 +248,67 @@ Expected<void> validate(const Layer& layer) {
     check_classification(species, check);
     check_growth(species, check);
     check_kind(species, check);
+    check_placement(species, layer.water_level_m, check);
+    check_seasons(species, check);
     if (auto checked = check.result(); !checked) return checked;
   }
   return {};
+}
+
+Expected<void> require_maps(const Layer& layer) {
+  const auto missing = [&](const std::string& owner, const char* what, const std::string& file) {
+    return fail("layer '" + layer.name + "'" + owner + ": the " + what + " \"" + file + "\" is named but not loaded");
+  };
+  if (!layer.mask && !layer.mask_file.empty()) return missing("", "mask", layer.mask_file);
+  if (!layer.distribution && !layer.distribution_file.empty())
+    return missing("", "distribution map", layer.distribution_file);
+  for (const Species& species : layer.species) {
+    if (!species.mask && !species.mask_file.empty())
+      return missing(": species '" + species.name + "'", "mask", species.mask_file);
+  }
+  return {};
+}
+
+bool needs_altitudes(const Layer& layer) {
+  return std::any_of(layer.species.begin(), layer.species.end(), [](const Species& s) {
+    return s.altitude_m.min > -k_unbounded || s.altitude_m.max < k_unbounded || s.above_water_m > -k_unbounded;
+  });
+}
+
+namespace {
+
+glm::vec3 mix_hsv(glm::vec3 a, glm::vec3 b, float way) {
+  if (a == b) return a;
+  const float turn = b.x - a.x - std::floor(b.x - a.x + 0.5f);
+  const float hue = a.x + turn * way;
+  return {hue - std::floor(hue), glm::mix(a.y, b.y, way), glm::mix(a.z, b.z, way)};
+}
+
+SeasonValues mix(const SeasonValues& a, const SeasonValues& b, float way) {
+  SeasonValues values;
+  values.reference_hsv = mix_hsv(a.reference_hsv, b.reference_hsv, way);
+  values.tint = glm::mix(a.tint, b.tint, way);
+  values.age_tint = glm::mix(a.age_tint, b.age_tint, way);
+  values.age_share = glm::mix(a.age_share, b.age_share, way);
+  values.height = glm::mix(a.height, b.height, way);
+  values.density = glm::mix(a.density, b.density, way);
+  return values;
+}
+
+}  // namespace
+
+SeasonValues season_values(const Species& species, float season) {
+  const std::vector<SeasonFrame>& frames = species.seasons;
+  if (frames.empty()) return {species.reference_hsv, species.tint, species.age_tint, species.age_share, 1.0f, 1.0f};
+  const double at = double(season) - std::floor(double(season));
+  size_t next = 0;
+  while (next < frames.size() && double(frames[next].at) <= at) ++next;
+  const SeasonFrame& before = frames[(next + frames.size() - 1) % frames.size()];
+  const SeasonFrame& after = frames[next % frames.size()];
+  const double begin = double(before.at) - (next == 0 ? 1.0 : 0.0);
+  const double end = double(after.at) + (next == frames.size() ? 1.0 : 0.0);
+  const double way = (at - begin) / (end - begin);
+  return mix(before.values, after.values, float(way * way * (3.0 - 2.0 * way)));
 }
 
 float canopy_height(const Layer& layer) {

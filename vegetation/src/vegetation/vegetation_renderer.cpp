@@ -3,6 +3,10 @@
 
 #include <sward/vegetation/vegetation_renderer.h>
 
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
 #include "vegetation/vegetation_renderer_stages.h"
 
 namespace sward {
@@ -11,13 +15,14 @@ namespace {
 
 constexpr size_t k_query_frames = 3;
 
-gl::Buffer make_species_buffer(const Layer& layer) {
+/// The layer's own parameters are the frame's: classify() writes them.
+SpeciesBlock make_species_block(const Layer& layer) {
   SpeciesBlock block;
   const std::vector<shared::SpeciesParams> params = make_species_params(layer);
   std::copy(params.begin(), params.end(), block.species.begin());
   for (const StreamPlace& place : place_species(layer))
     block.species[size_t(place.species)].kind.w = float(place.pass * k_streams + place.stream);
-  return make_buffer(sizeof block, &block, GL_DYNAMIC_STORAGE_BIT);
+  return block;
 }
 
 }  // namespace
@@ -29,6 +34,7 @@ struct VegetationRenderer::Impl {
   GrowthStage growth;
   ReadBackStage read_back;
   TriangleBuffers triangles;
+  PlacementTextures placement;
   gl::Buffer species;
   std::array<StageQueries, k_query_frames> queries;
   size_t query_frame = 0;
@@ -37,10 +43,18 @@ struct VegetationRenderer::Impl {
   View view;
   std::array<DensityBin, k_density_bins> bins{};
   uint32_t clusters = 0;
-  bool uploaded = false, classified = false;
+  bool uploaded = false, classified = false, season_changed = false;
+
+  /// The species as the season has them: what is drawn goes by what was classified.
+  void write_season() {
+    if (!std::exchange(season_changed, false)) return;
+    const SpeciesBlock block = make_species_block(layer);
+    glNamedBufferSubData(species.id(), GLintptr(offsetof(SpeciesBlock, species)), GLsizeiptr(sizeof block.species),
+                         block.species.data());
+  }
 
   StageInputs inputs(const gl::Frame& frame, const gl::GroundTextures& ground) const {
-    return {bindings, frame, ground, triangles, species.id()};
+    return {bindings, frame, ground, triangles, placement, species.id()};
   }
 };
 
@@ -52,6 +66,7 @@ VegetationRenderer::~VegetationRenderer() = default;
 Expected<VegetationRenderer> VegetationRenderer::create(const Layer& layer, const gl::ShaderLibrary& shaders,
                                                         const gl::Bindings& bindings) {
   if (auto valid = validate(layer); !valid) return tl::unexpected(valid.error());
+  if (auto loaded = require_maps(layer); !loaded) return tl::unexpected(loaded.error());
   if (auto context = gl::require_context(); !context) return tl::unexpected(context.error());
   auto classification = ClassificationStage::create(layer, shaders, bindings);
   if (!classification) return tl::unexpected(classification.error());
@@ -59,6 +74,9 @@ Expected<VegetationRenderer> VegetationRenderer::create(const Layer& layer, cons
   if (!growth) return tl::unexpected(growth.error());
   auto read_back = ReadBackStage::create(layer, shaders, bindings);
   if (!read_back) return tl::unexpected(read_back.error());
+  auto placement = PlacementTextures::create(layer);
+  if (!placement) return tl::unexpected(placement.error());
+  const SpeciesBlock species = make_species_block(layer);
   const size_t streams = classification->places().size();
   return VegetationRenderer(std::make_unique<Impl>(
       Impl{.layer = layer,
@@ -67,7 +85,8 @@ Expected<VegetationRenderer> VegetationRenderer::create(const Layer& layer, cons
            .growth = std::move(*growth),
            .read_back = std::move(*read_back),
            .triangles = TriangleBuffers::create(),
-           .species = make_species_buffer(layer),
+           .placement = std::move(*placement),
+           .species = make_buffer(sizeof species, &species, GL_DYNAMIC_STORAGE_BIT),
            .queries = {StageQueries::create(streams), StageQueries::create(streams), StageQueries::create(streams)},
            .last_stats = {},
            .view = {}}));
@@ -81,7 +100,8 @@ Expected<void> VegetationRenderer::upload(const Seeding& seeding, const FixedTri
   Impl& self = *impl_;
   self.uploaded = false;
   self.classified = false;
-  if (auto written = self.triangles.write(seeding.records, triangles.nodes()); !written) return written;
+  if (auto written = self.triangles.write(seeding.records, triangles.nodes(), seeding.exclusions); !written)
+    return written;
   self.classification.reserve(seeding.clusters);
   self.view = view;
   self.bins = seeding.bins;
@@ -94,10 +114,12 @@ void VegetationRenderer::classify(const gl::Frame& frame, const gl::GroundTextur
                                   GLuint restore_framebuffer) {
   Impl& self = *impl_;
   SWARD_ASSERT(self.uploaded, "upload a seeding before classifying");
-  const MapGeometry map{ground.map_size(), ground.texels()};
+  const MapGeometry map = classification_map(self.layer, {ground.map_size(), ground.texels()});
+  self.placement.follow(self.layer, map, ground.base_map_raw());
   // The sun's azimuth reaches the shaders with the frame.
   const shared::LayerParams params = make_layer_params(self.layer, self.view, map, 0.0f);
   glNamedBufferSubData(self.species.id(), 0, sizeof params, &params);
+  self.write_season();
   self.query_frame = (self.query_frame + 1) % k_query_frames;
   StageQueries& queries = self.queries[self.query_frame];
   queries.begin_frame(self.clusters);
@@ -113,6 +135,24 @@ void VegetationRenderer::draw(const gl::Frame& frame, const gl::GroundTextures& 
   queries.begin_growth();
   self.growth.run(self.inputs(frame, ground), self.classification, fertile);
   queries.end_growth();
+}
+
+void VegetationRenderer::set_season(float season) {
+  SWARD_ASSERT(std::isfinite(season), "a season is a finite number");
+  Impl& self = *impl_;
+  self.layer.season = season;
+  self.season_changed = true;
+}
+
+Expected<void> VegetationRenderer::set_values(size_t species, const SeasonValues& values) {
+  Impl& self = *impl_;
+  if (species >= self.layer.species.size()) return fail("there is no species " + std::to_string(species));
+  Layer changed = self.layer;
+  changed.species[species].seasons = {{0.0f, values}};
+  if (auto valid = validate(changed); !valid) return valid;
+  self.layer = std::move(changed);
+  set_season(self.layer.season);
+  return {};
 }
 
 VegetationStats VegetationRenderer::stats(bool wait) {

@@ -45,6 +45,7 @@ TriangleBuffers TriangleBuffers::create() {
   TriangleBuffers buffers;
   buffers.records_ = gl::create_texture(GL_TEXTURE_BUFFER);
   buffers.surface_ = gl::create_texture(GL_TEXTURE_BUFFER);
+  buffers.exclusions_ = gl::create_texture(GL_TEXTURE_BUFFER);
   buffers.alignment_ = std::max(device_limit(GL_TEXTURE_BUFFER_OFFSET_ALIGNMENT), k_texel_bytes);
   buffers.max_texels_ = device_limit(GL_MAX_TEXTURE_BUFFER_SIZE);
   return buffers;
@@ -56,24 +57,33 @@ void TriangleBuffers::reserve(size_t region_bytes) {
   buffer_ = make_buffer(k_regions * region_bytes_, nullptr, GL_DYNAMIC_STORAGE_BIT);
 }
 
-Expected<void> TriangleBuffers::write(std::span<const TriangleRecord> records, std::span<const SurfaceNode> nodes) {
+Expected<void> TriangleBuffers::write(std::span<const TriangleRecord> records, std::span<const SurfaceNode> nodes,
+                                      std::span<const glm::vec4> exclusions) {
   if (auto fits = check_texels("triangles", records.size(), sizeof(TriangleRecord) / k_texel_bytes, max_texels_); !fits)
     return fits;
   if (auto fits = check_texels("surface nodes", nodes.size(), 1, max_texels_); !fits) return fits;
+  if (auto fits = check_texels("corners of excluded shapes", exclusions.size(), 1, max_texels_); !fits) return fits;
 
   // A buffer texture cannot be empty; node 0 stands for "flat" and is never read.
   const size_t record_bytes = std::max(records.size_bytes(), sizeof(TriangleRecord));
   const size_t node_bytes = std::max(nodes.size_bytes(), sizeof(SurfaceNode));
   const size_t nodes_at = round_up(record_bytes, alignment_);
-  reserve(nodes_at + node_bytes);
+  const size_t shape_bytes = std::max(exclusions.size_bytes(), k_texel_bytes);
+  const size_t shapes_at = round_up(nodes_at + node_bytes, alignment_);
+  reserve(shapes_at + shape_bytes);
   region_ = (region_ + 1) % k_regions;
   const size_t begin = region_ * region_bytes_;
   if (!records.empty())
     glNamedBufferSubData(buffer_.id(), GLintptr(begin), GLsizeiptr(records.size_bytes()), records.data());
   if (!nodes.empty())
     glNamedBufferSubData(buffer_.id(), GLintptr(begin + nodes_at), GLsizeiptr(nodes.size_bytes()), nodes.data());
+  if (!exclusions.empty())
+    glNamedBufferSubData(buffer_.id(), GLintptr(begin + shapes_at), GLsizeiptr(exclusions.size_bytes()),
+                         exclusions.data());
   glTextureBufferRange(records_.id(), GL_RGBA32UI, buffer_.id(), GLintptr(begin), GLsizeiptr(record_bytes));
   glTextureBufferRange(surface_.id(), GL_RGBA32UI, buffer_.id(), GLintptr(begin + nodes_at), GLsizeiptr(node_bytes));
+  glTextureBufferRange(exclusions_.id(), GL_RGBA32F, buffer_.id(), GLintptr(begin + shapes_at),
+                       GLsizeiptr(shape_bytes));
   return {};
 }
 

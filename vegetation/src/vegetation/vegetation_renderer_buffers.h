@@ -22,30 +22,32 @@ struct SpeciesBlock {
   shared::LayerParams layer{};
   std::array<shared::SpeciesParams, k_max_species> species{};
 };
-static_assert(sizeof(shared::LayerParams) == 4 * 16);
-static_assert(sizeof(shared::SpeciesParams) == 12 * 16);
-static_assert(sizeof(SpeciesBlock) == 4 * 16 + k_max_species * 12 * 16);
-static_assert(sizeof(SpeciesBlock) <= 16384, "GL promises uniform blocks of 16 KiB");
+static_assert(sizeof(shared::LayerParams) == 5 * 16);
+static_assert(sizeof(shared::SpeciesParams) == 15 * 16);
+static_assert(sizeof(SpeciesBlock) == sizeof(shared::LayerParams) + k_max_species * sizeof(shared::SpeciesParams));
+static_assert(sizeof(SpeciesBlock) <= 16384, "the smallest GL_MAX_UNIFORM_BLOCK_SIZE");
 
-/// A frame's triangle records and surface nodes: one buffer of three regions written in turn, so that a write never
-/// meets a frame that the GPU still reads; two buffer textures look at the region written last.
+/// A frame's triangle records, surface nodes and excluded shapes: one buffer of three regions written in turn, so that
+/// a write never meets a frame that the GPU still reads; three buffer textures look at the region written last.
 /// ```
 ///  region 0                  region 1                  region 2
-///  | records | pad | nodes | | records | pad | nodes | ...        pad: to GL_TEXTURE_BUFFER_OFFSET_ALIGNMENT
+///  | records | pad | nodes | pad | shapes | | records | ...       pad: to GL_TEXTURE_BUFFER_OFFSET_ALIGNMENT
 /// ```
 class TriangleBuffers {
  public:
   static TriangleBuffers create();
   /// Fails when the device's buffer textures cannot hold either.
-  Expected<void> write(std::span<const TriangleRecord> records, std::span<const SurfaceNode> nodes);
+  Expected<void> write(std::span<const TriangleRecord> records, std::span<const SurfaceNode> nodes,
+                       std::span<const glm::vec4> exclusions);
   GLuint records() const { return records_.id(); }
   GLuint surface() const { return surface_.id(); }
+  GLuint exclusions() const { return exclusions_.id(); }
 
  private:
   void reserve(size_t region_bytes);
 
   gl::Buffer buffer_;
-  gl::Texture records_, surface_;
+  gl::Texture records_, surface_, exclusions_;
   size_t region_bytes_ = 0;
   size_t region_ = 0;
   size_t alignment_ = 256;
@@ -88,7 +90,7 @@ class StageBindings {
 
  private:
   const gl::Bindings& bindings_;
-  std::array<GLuint, 6> units_{};
+  std::array<GLuint, 10> units_{};
   size_t count_ = 0;
 };
 

@@ -78,9 +78,11 @@ void ClassificationStage::run(const StageInputs& inputs, std::span<const Density
                               GLuint restore_framebuffer) {
   const gl::Bindings& units = inputs.bindings;
   const StageBindings bound(units, inputs.frame.buffer(), inputs.species,
-                            {{units.base_map_raw, inputs.ground.base_map_raw()},
+                            {{units.base_map_raw, inputs.placement.map()},
                              {units.triangles, inputs.triangles.records()},
-                             {units.surface, inputs.triangles.surface()}});
+                             {units.surface, inputs.triangles.surface()},
+                             {units.exclusions, inputs.triangles.exclusions()},
+                             {units.placement, inputs.placement.masks()}});
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.id());
   glEnable(GL_RASTERIZER_DISCARD);
   glUseProgram(program_.id());

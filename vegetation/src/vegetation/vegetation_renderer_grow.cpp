@@ -81,9 +81,9 @@ int instances_of(const KindProgram& kind, const Layer& layer, const Species& spe
   return (kind.shoots(species) + a_patch - 1) / a_patch;
 }
 
-/// Mesa's software tessellator numbers the points of a draw with 16 bits: beyond that, lines are drawn again in place of
-/// those that follow. The most clusters of a species whose points still have a number each; odd spacing adds up to two
-/// segments, a line one point.
+/// Mesa's software tessellator numbers the points of a draw with 16 bits: beyond that, lines are drawn again in place
+/// of those that follow. The most clusters of a species whose points still have a number each; odd spacing adds up to
+/// two segments, a line one point.
 GLsizei part_of(const KindProgram& kind, const Layer& layer, const Species& species) {
   const int points = kind.points != nullptr ? kind.points(species) : std::max(species.max_segments, 5) + 3;
   const int lines = layer.cluster_size * (kind.of_shoots ? kind.shoots(species) : 1);
@@ -152,9 +152,11 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
   const gl::Bindings& units = inputs.bindings;
   const StageBindings bound(units, inputs.frame.buffer(), inputs.species,
                             {{units.base_map, inputs.ground.base_map()},
-                             {units.base_map_raw, inputs.ground.base_map_raw()},
+                             {units.base_map_raw, inputs.placement.map()},
                              {units.triangles, inputs.triangles.records()},
                              {units.surface, inputs.triangles.surface()},
+                             {units.exclusions, inputs.triangles.exclusions()},
+                             {units.placement, inputs.placement.masks()},
                              {units.blade_shape, blade_shape_.id()}});
   glPatchParameteri(GL_PATCH_VERTICES, 1);
   glBindVertexArray(vertex_array_.id());

@@ -10,6 +10,7 @@
 #include <sward/vegetation/plants.h>
 #include <sward/vegetation/vegetation_renderer.h>
 
+#include "vegetation/placement_textures.h"
 #include "vegetation/vegetation_renderer_buffers.h"
 
 namespace sward {
@@ -35,6 +36,7 @@ struct StageInputs {
   const gl::Frame& frame;
   const gl::GroundTextures& ground;
   const TriangleBuffers& triangles;
+  const PlacementTextures& placement;
   GLuint species;
 };
 

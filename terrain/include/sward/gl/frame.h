@@ -22,6 +22,8 @@ struct Lighting {
   float exposure = 0.55f;          ///< Multiplier before tone mapping. > 0.
   /// True: shaders write tone-mapped sRGB-encoded colour (for ordinary 8-bit targets). False: linear radiance.
   bool encode_srgb = true;
+  /// Factor on the linear colour of green ground, and so of what grows there: the season's. Each >= 0.
+  glm::vec3 ground_tint{1.0f};
 
   /// A clear day's colours for a sun at this place: warmer, dimmer and hazier near the horizon.
   static Lighting clear_day(float sun_azimuth, float sun_elevation);
@@ -41,6 +43,7 @@ struct FrameUniforms {
   glm::vec4 ground_radiance;     ///< w: 1 / haze height.
   glm::vec4 eye_noise;           ///< Eye's x, y modulo 1024 m, for world-stable noise; z: eye's height, w: samples of the target.
   glm::vec4 up;                  ///< xyz: world up; w unused.
+  glm::vec4 ground_tint;         ///< xyz: factor on green ground; w unused.
 };
 
 /// The per-view uniform buffer that every sward program reads. GL thread.

@@ -54,6 +54,9 @@ struct FixedTriangle {
   float screen_area = 0;  ///< Projected area in units of (half the viewport's height) squared; infinite when a corner
                           ///< lies behind the near plane.
   float distance = 0;     ///< From the eye to the nearest point of the triangle, metres.
+  /// z of the finest data at apex, left, right, world, metres; static, NaN where there are none, and where
+  /// FixedLevelOptions::altitudes does not ask for them: nothing with a rule of altitude stands there.
+  glm::vec3 altitude{0};
 };
 
 /// One split of the drawn surface below a fixed-level triangle: z of the split vertex, absolute against
@@ -96,6 +99,7 @@ class FixedTriangles {
   std::span<const float> area() const { return {columns_.area.data(), count_}; }
   std::span<const float> screen_area() const { return {columns_.screen_area.data(), count_}; }
   std::span<const float> distance() const { return {columns_.distance.data(), count_}; }
+  std::span<const glm::vec3> altitude() const { return {columns_.altitude.data(), count_}; }
 
   /// Splits of the drawn surface below triangles; node 0 is a placeholder, always there.
   std::span<const SurfaceNode> nodes() const { return {nodes_.data(), node_count_}; }
@@ -124,6 +128,7 @@ class FixedTriangles {
     std::span<uint32_t> surface;
     std::span<float> area, screen_area, distance;
     std::span<SurfaceNode> nodes;  ///< The placeholder included.
+    std::span<glm::vec3> altitude;
   };
   /// Changes size() and the number of nodes (at least 1). What was there before stays, what is new is unspecified, node
   /// 0 is the placeholder. The spans are valid until the next call that is not const. Does not free memory.
@@ -141,6 +146,7 @@ class FixedTriangles {
     std::vector<TriangleId> id;
     std::vector<uint32_t> surface;
     std::vector<float> area, screen_area, distance;
+    std::vector<glm::vec3> altitude;
     void grow(size_t count);
   };
   Columns columns_;  // as long as the longest so far: only what is new is ever initialised
@@ -160,6 +166,7 @@ struct FixedLevelOptions {
   bool skip_back_faces = true;
   int threads = 0;  ///< At most so many work on it, the calling one included; 0: one a core. Small sets stay on
                     ///< the calling thread, and the result is the same whatever the number.
+  bool altitudes = false;  ///< Fill FixedTriangles::altitude(): three heights of the data a triangle, once.
 };
 
 /// The level whose triangles' area is nearest to `area_m2` (geometrically), within [0, k_max_level].

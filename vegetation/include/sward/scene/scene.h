@@ -12,6 +12,15 @@
 
 namespace sward {
 
+/// What a time of the year makes of green ground: a factor on its linear colour.
+struct GroundSeason {
+  float at = 0;  ///< [0, 1); rising from one to the next.
+  glm::vec3 tint{1.0f};
+};
+
+/// The factor at a time of the year, between frames as season_values(); 1 without frames.
+glm::vec3 ground_tint(std::span<const GroundSeason> frames, float season);
+
 /// A scene as a TOML file names it. Paths are kept as written; resolve() makes them relative to the file's folder.
 struct Scene {
   std::string name;
@@ -47,8 +56,15 @@ struct Scene {
   bool camera_from_middle = false;                 ///< camera.x, y count from the middle of the ground.
   double camera_yaw = 0, camera_pitch = 0, fov_y = 0.8726646;  ///< Radians.
 
-  // [[layer]] with [[layer.species]]
+  // [season]
+  float season = 0;             ///< Time of the year, 0..1; every layer's Layer::season.
+  std::vector<GroundSeason> ground_seasons;
+
+  // [[layer]] with [[layer.species]]. Masks and distribution maps are named, not loaded.
   std::vector<Layer> layers;
+
+  // [[exclude]]
+  std::vector<ExclusionShape> exclusions;
 
   std::string resolve(const std::string& path) const;
 };

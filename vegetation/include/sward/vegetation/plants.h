@@ -3,6 +3,7 @@
 #pragma once
 
 #include <sward/terrain/color_map.h>
+#include <sward/terrain/surface.h>
 #include <sward/vegetation/seeding.h>
 
 namespace sward {
@@ -24,6 +25,33 @@ struct Plant {
 /// phototropic species ask for it. Cost: one look at the map a cluster and one a seed that is shown. Any thread.
 std::vector<Plant> grow_plants(const Layer& layer, const View& view, const ColorMap& map,
                                const FixedTriangles& triangles, const Seeding& seeding, float sun_azimuth = 0.0f);
+
+/// A part of the world seen from above: a rectangle, or a disc.
+struct PlantRegion {
+  glm::dvec2 low{0}, high{0};  ///< Western, southern and eastern, northern corner, metres; of a disc its bounds.
+  double radius_m = 0;         ///< > 0: a disc in the middle of them.
+
+  static PlantRegion rectangle(glm::dvec2 low, glm::dvec2 high) { return {low, high, 0.0}; }
+  static PlantRegion disc(glm::dvec2 centre, double radius_m) {
+    return {centre - radius_m, centre + radius_m, radius_m};
+  }
+  bool contains(glm::dvec2 place) const;
+};
+
+struct PlantQueryOptions {
+  size_t most_plants = 1000000;            ///< More are an error.
+  const Exclusions* exclusions = nullptr;  ///< As given to seed().
+  float sun_azimuth = 0.0f;                ///< Radians; only phototropic species ask for it.
+};
+
+/// The plants whose roots lie in a region, exactly those that the GPU draws near by, at full density (distance 0; the
+/// ceiling under the other laws), z from the finest data. Needs neither a view nor a context. Order: triangles, ranks.
+/// Over a world the data are those that are resident. Fails on a layer that does not validate or lacks maps, on a
+/// region that is empty or not finite, and where more than `most_plants` stand there or more than 64 times as many
+/// would have to be looked at. Cost: that of grow_plants for the region's triangles, and three heights each. Any
+/// thread, while the surface does not change.
+Expected<std::vector<Plant>> query_plants(const Layer& layer, const Surface& surface, const ColorMap& map,
+                                          const PlantRegion& region, const PlantQueryOptions& options = {});
 
 /// Drawn surface z (world) at the point `to_left * a + to_right * b` from the apex, a, b >= 0, a + b <= 1.
 double surface_height(const FixedTriangles& triangles, const FixedTriangle& triangle, float a, float b);

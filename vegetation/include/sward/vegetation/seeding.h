@@ -5,12 +5,14 @@
 #include <sward/terrain/color_map.h>
 #include <sward/terrain/fixed_triangles.h>
 #include <sward/terrain/view.h>
+#include <sward/vegetation/placement.h>
 #include <sward/vegetation/species.h>
 #include <array>
+#include <memory>
 
 namespace sward {
 
-/// A triangle as every stage after seeding sees it: five RGBA32 texels of a buffer texture. Everything that decides
+/// A triangle as every stage after seeding sees it: six RGBA32 texels of a buffer texture. Everything that decides
 /// what stands where is static (id, edges, texel position, limit); what moves with the eye is the apex and, for the
 /// laws of the screen, the limit.
 struct TriangleRecord {
@@ -23,16 +25,20 @@ struct TriangleRecord {
   glm::ivec2 texel{0};          ///< Base-map texel of the apex, integer part (floor) of (u width, v height) ...
   glm::vec2 texel_fraction{0};  ///< ... and the rest; offsets in metres are scaled by LayerParams::map.
   float limit = 0;         ///< distance law: area * rho0, the seeds at full density; else: the triangle's seed count n.
-  float area = 0;          ///< Static area, square metres.
+  float slope = 0;         ///< Of the data, radians, where a species asks for it; static.
   float surface_z = 0;     ///< Add to SurfaceNode::z to get z relative to the eye.
   uint32_t submitted = 0;  ///< Seeds submitted for this triangle.
+  glm::vec3 altitude{0};   ///< World z of the data at apex, left, right; static.
+  uint32_t exclusions = 0;  ///< First texel of its run in Seeding::exclusions, 0: none.
 };
-static_assert(sizeof(TriangleRecord) == 80);
+static_assert(sizeof(TriangleRecord) == 96);
 
 /// One instanced draw: `triangles` records from `first`, `clusters` instances each.
 struct DensityBin {
   uint32_t first = 0, triangles = 0, clusters = 0;  ///< clusters: ceil(upper edge / cluster size), 0 if empty.
 };
+
+class ExclusionIndex;
 
 /// Result of seeding a layer for one view: plain arrays, uploaded as they are.
 struct Seeding {
@@ -43,13 +49,25 @@ struct Seeding {
   float n_min = 0, n_max = 0;    ///< Smallest and largest count of this frame.
   double surface_z_origin = 0;   ///< FixedTriangles::surface_z(), for the CPU twin.
   std::vector<uint32_t> source;  ///< Index in FixedTriangles of each record.
+  /// Excluded shapes near the triangles, a run of texels each (shaders/common_placement.glsl); the first is an end.
+  std::vector<glm::vec4> exclusions;
 
   /// What seed() keeps a triangle while it counts: scratch, meaningless to others.
   struct Count {
     float limit = 0;
-    uint32_t submitted = 0, bin = 0;
+    uint32_t submitted = 0, bin = 0, exclusions = 0;
   };
   std::vector<Count> counts;
+  /// Scratch too, and not copied with the rest.
+  struct Scratch {
+    std::shared_ptr<ExclusionIndex> index;
+    Scratch() = default;
+    Scratch(const Scratch&) {}
+    Scratch& operator=(const Scratch&) { return *this; }
+    Scratch(Scratch&&) = default;
+    Scratch& operator=(Scratch&&) = default;
+  };
+  Scratch scratch;
 };
 
 /// Seeds that a triangle is given by the layer's law, not rounded: it submits the next whole number. 0 beyond the
@@ -69,7 +87,10 @@ float seed_limit(const Layer& layer, const View& view, const FixedTriangle& tria
 std::array<float, k_density_bins> bin_edges(float n_min, float n_max);
 
 /// Counts, bins and lays out. Clears `out` first; allocates only when a frame needs more than any before. Cost: linear
-/// in the triangles. Triangles without seeds get no record. Any thread, one `out` a thread.
-void seed(const Layer& layer, const View& view, const ColorMap& map, const FixedTriangles& triangles, Seeding& out);
+/// in the triangles. Triangles without seeds get no record, nor do those that `exclusions` cover; the others carry the
+/// shapes near them. Layers of which needs_altitudes() is true want triangles that have them. Any thread, one `out` a
+/// thread.
+void seed(const Layer& layer, const View& view, const ColorMap& map, const FixedTriangles& triangles, Seeding& out,
+          const Exclusions* exclusions = nullptr);
 
 }  // namespace sward

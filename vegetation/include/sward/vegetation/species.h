@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/terrain/color_map.h>
+#include <sward/terrain/error.h>
+#include <sward/vegetation/placement.h>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
+#include <memory>
 #include <string>
-#include <sward/terrain/error.h>
 #include <vector>
 
 namespace sward {
@@ -13,11 +17,11 @@ namespace sward {
 /// What grows (or not) where the ground has a species' colour. What sizes and colours mean to each kind:
 /// docs/scene_format.md, "Kinds".
 enum class PlantKind : uint32_t {
-  none,   ///< Bare ground: soil, rock, snow. Competes for clusters, grows nothing.
-  blade,  ///< A blade of grass.
-  tuft,    ///< Blades fanned out from one root: Species::tuft.
-  flower,  ///< A stem with a head at its end: Species::flower.
-  custom,  ///< A host's own, made of shoots by its GLSL functions: Species::custom.
+  none,       ///< Bare ground: soil, rock, snow. Competes for clusters, grows nothing.
+  blade,      ///< A blade of grass.
+  tuft,       ///< Blades fanned out from one root: Species::tuft.
+  flower,     ///< A stem with a head at its end: Species::flower.
+  custom,     ///< A host's own, made of shoots by its GLSL functions: Species::custom.
   gravel,     ///< A faceted stone, a third of it in the ground.
   leaf,       ///< A rosette of broad leaves.
   fern,       ///< A rosette of fronds.
@@ -64,6 +68,25 @@ struct CustomKind {
   std::vector<float> parameters;
 };
 
+/// No bound of a range.
+inline constexpr float k_unbounded = std::numeric_limits<float>::infinity();
+
+/// What a season makes of a species.
+struct SeasonValues {
+  glm::vec3 reference_hsv{0.25f, 0.5f, 0.4f};  ///< As Species::reference_hsv.
+  glm::vec3 tint{1.0f};
+  glm::vec3 age_tint{1.25f, 1.05f, 0.55f};
+  float age_share = 0.35f;
+  float height = 1.0f;   ///< Share of Species::height_m, 0..1.
+  float density = 1.0f;  ///< Share of the layer's density, 0..1: the last ranks go first, shrinking.
+};
+
+/// The values at one time of the year.
+struct SeasonFrame {
+  float at = 0;  ///< [0, 1); rising from frame to frame.
+  SeasonValues values;
+};
+
 /// A reference colour, placement rules and growth parameters (Papavasiliou 2015, section 3.3).
 struct Species {
   std::string name;
@@ -80,26 +103,39 @@ struct Species {
   bool forbids = false;
 
   FloatRange height_m{0.25f, 0.45f};
-  FloatRange width_m{0.004f, 0.008f};   ///< At the base.
-  FloatRange stiffness{0.45f, 0.85f};   ///< 0: hangs, 1: stands straight (see blade_shape.h).
-  float lean = 0.15f;                   ///< Largest random lean of the root, radians.
-  float phototropism = 0.0f;            ///< 0: any azimuth; 1: all plants bend towards the sun.
-  int max_segments = 7;                 ///< n_max of equation 4, 1..64.
-  glm::vec3 tint{1.0f};                 ///< Multiplies the ground's linear colour: the fresh plant's tip.
+  FloatRange width_m{0.004f, 0.008f};       ///< At the base.
+  FloatRange stiffness{0.45f, 0.85f};       ///< 0: hangs, 1: stands straight (see blade_shape.h).
+  float lean = 0.15f;                       ///< Largest random lean of the root, radians.
+  float phototropism = 0.0f;                ///< 0: any azimuth; 1: all plants bend towards the sun.
+  int max_segments = 7;                     ///< n_max of equation 4, 1..64.
+  glm::vec3 tint{1.0f};                     ///< Multiplies the ground's linear colour: the fresh plant's tip.
   glm::vec3 age_tint{1.25f, 1.05f, 0.55f};  ///< The same for the oldest plants; each plant mixes by its own age.
-  float age_share = 0.35f;              ///< Mean share of the age tint, 0..1.
-  float root_shade = 0.35f;             ///< Reeves' occlusion: brightness at the root against 1 at the tip, 0..1.
-  float translucency = 0.6f;            ///< k_t of equation 13 against the diffuse coefficient, >= 0.
-  float attenuation = 0.4f;             ///< alpha of equation 13, >= 0.
-  float specular = 0.12f;               ///< k_s of equation 14, >= 0.
-  float shininess = 24.0f;              ///< n of equation 14, >= 1.
+  float age_share = 0.35f;                  ///< Mean share of the age tint, 0..1.
+  float root_shade = 0.35f;                 ///< Reeves' occlusion: brightness at the root against 1 at the tip, 0..1.
+  float translucency = 0.6f;                ///< k_t of equation 13 against the diffuse coefficient, >= 0.
+  float attenuation = 0.4f;                 ///< alpha of equation 13, >= 0.
+  float specular = 0.12f;                   ///< k_s of equation 14, >= 0.
+  float shininess = 24.0f;                  ///< n of equation 14, >= 1.
 
   TuftShape tuft;  ///< Read for kind tuft alone, the next for flower and custom.
   FlowerShape flower;
   CustomKind custom;
-  int leaves = 6;                       ///< Kinds leaf and fern: leaves or fronds of a plant, 1..8.
-  float trunk_share = 0.3f;             ///< Kind billboard: share of the height below the crown, 0..0.9; 0: a shrub.
-  float taper = 0.0f;                   ///< Kind billboard: crown's outline from 0, an ellipse, to 1, a cone.
+  int leaves = 6;            ///< Kinds leaf and fern: leaves or fronds of a plant, 1..8.
+  float trunk_share = 0.3f;  ///< Kind billboard: share of the height below the crown, 0..0.9; 0: a shrub.
+  float taper = 0.0f;        ///< Kind billboard: crown's outline from 0, an ellipse, to 1, a cone.
+
+  // Placement rules. Each is a factor 0..1 on the score, asked at a cluster's centre; each seed then asks again at its
+  // own place, and stands with the probability of the factor there: nowhere where it is 0.
+  FloatRange slope{0.0f, k_unbounded};               ///< Of the data at the seeding triangle, radians.
+  float slope_soft = 0.0f;                           ///< The factor falls to 0 so far beyond the range, radians, >= 0.
+  FloatRange altitude_m{-k_unbounded, k_unbounded};  ///< World z of the finest data.
+  float altitude_soft_m = 0.0f;                      ///< As slope_soft, metres.
+  float above_water_m = -k_unbounded;                ///< Least height above Layer::water_level_m; may be negative.
+  std::shared_ptr<const GrayMap> mask;               ///< Null: none.
+  std::string
+      mask_file;  ///< For those who load scenes: where `mask` comes from. Not read here; without `mask`, an error.
+
+  std::vector<SeasonFrame> seasons;  ///< In the order of the year; empty: the species' own values all year.
 };
 
 enum class DensityLaw : uint32_t {
@@ -112,20 +148,27 @@ enum class DensityLaw : uint32_t {
 struct Layer {
   std::string name = "ground_cover";
   std::vector<Species> species;
-  float triangle_area_m2 = 1.6f;   ///< Names the seeding level. > 0.
-  float horizon_m = 100.0f;        ///< > 0, at zoom 1.
-  int cluster_size = 8;            ///< C, 1..32.
+  float triangle_area_m2 = 1.6f;  ///< Names the seeding level. > 0.
+  float horizon_m = 100.0f;       ///< > 0, at zoom 1.
+  int cluster_size = 8;           ///< C, 1..32.
   DensityLaw law = DensityLaw::distance;
-  float density = 500.0f;          ///< rho0: plants a square metre (distance); plants a unit of screen area (screen_area,
-                                   ///< world_area). > 0.
-  float full_distance_m = 5.0f;    ///< d0 of the distance law; the others, unless plain, count what is nearer than
-                                   ///< twice this as being there. > 0.
-  float falloff = 1.0f;            ///< gamma of the distance law; roll-off exponent on the area of screen_area. > 0.
-  int ceiling = 4096;              ///< n_max of equations 1 and 2: most plants a triangle. >= 1.
-  bool plain = false;              ///< The paper's behaviour: no growing-in, no widening, no sinking.
-  float full_segments_m = 6.0f;    ///< d0 of equation 4: full segments up to here. > 0.
-  bool shadows = true;             ///< Planar shadows.
-  float shadow_distance_m = 60.0f; ///< No shadows of plants beyond. >= 0.
+  float density = 500.0f;        ///< rho0: plants a square metre (distance); plants a unit of screen area (screen_area,
+                                 ///< world_area). > 0.
+  float full_distance_m = 5.0f;  ///< d0 of the distance law; the others, unless plain, count what is nearer than
+                                 ///< twice this as being there. > 0.
+  float falloff = 1.0f;          ///< gamma of the distance law; roll-off exponent on the area of screen_area. > 0.
+  int ceiling = 4096;            ///< n_max of equations 1 and 2: most plants a triangle. >= 1.
+  bool plain = false;            ///< The paper's behaviour: no growing-in, no widening, no sinking.
+  float full_segments_m = 6.0f;  ///< d0 of equation 4: full segments up to here. > 0.
+  bool shadows = true;           ///< Planar shadows.
+  float shadow_distance_m = 60.0f;  ///< No shadows of plants beyond. >= 0.
+
+  float water_level_m = -k_unbounded;            ///< World z, for Species::above_water_m.
+  std::shared_ptr<const GrayMap> mask;           ///< For all species; asked at each seed. Null: none.
+  std::shared_ptr<const ColorMap> distribution;  ///< Classification reads its texels (colours, alpha) instead of the
+                                                 ///< base map's; its place is the base map's. Null: the base map.
+  std::string mask_file, distribution_file;      ///< As Species::mask_file.
+  float season = 0.0f;  ///< Time of the year, 0..1, 1 being 0 again; finite. Of no use without Species::seasons.
 };
 
 inline constexpr int k_max_species = 64;  ///< In one layer.
@@ -137,6 +180,16 @@ inline constexpr int k_most_parameters = 16;
 
 /// Fails naming layer, species, field and range.
 Expected<void> validate(const Layer& layer);
+
+/// Fails where a file of a mask or distribution map is named but not loaded.
+Expected<void> require_maps(const Layer& layer);
+
+/// Whether a rule asks for FixedTriangles::altitude().
+bool needs_altitudes(const Layer& layer);
+
+/// Values of a species at a time of the year: between two frames eased (smoothstep), hue the shorter way round, from
+/// the last frame to the first across the turn of the year. Without frames the species' own, whole height and density.
+SeasonValues season_values(const Species& species, float season);
 
 /// Highest a plant of the layer can reach above the ground, metres.
 float canopy_height(const Layer& layer);

@@ -34,22 +34,31 @@ class VegetationRenderer {
 
   const Layer& layer() const;
 
+  /// The time of the year from the next classify on (Layer::season; finite, asserted): colours, heights and densities of
+  /// species with seasons. Nothing is seeded or built anew, plants keep ids and places. Between two seedings too. Binds
+  /// nothing. Cost: a write of 11 KB.
+  void set_season(float season);
+  /// Gives a species (index in the layer) values of the host's own, for what follows no year: they take the place of its
+  /// seasons. Fails, changing nothing, on values out of range. A reference colour that jumps swaps plants at once; ones
+  /// that are to be exchanged smoothly stand in seasons.
+  Expected<void> set_values(size_t species, const SeasonValues& values);
+
   /// One upload of a frame's seeding and surface, for the view that they were made for; grows buffers when a frame
   /// needs more than any before. Fails, keeping nothing of the frame, when the device's buffer textures cannot hold it
-  /// (GL_MAX_TEXTURE_BUFFER_SIZE; records take 5 texels, surface nodes 1). Binds nothing. The arguments may go away
+  /// (GL_MAX_TEXTURE_BUFFER_SIZE; records take 6 texels, surface nodes 1). Binds nothing. The arguments may go away
   /// afterwards.
   Expected<void> upload(const Seeding& seeding, const FixedTriangles& triangles, const View& view);
 
   /// Classifies the uploaded clusters into one feedback stream a species, by passes of four. Call after upload, before
   /// draw, once a frame. Binds: program, vertex array, transform feedback, draw framebuffer (its own, 1 x 1), uniform
-  /// buffers frame and species, texture units base_map_raw, triangles, surface; enables GL_RASTERIZER_DISCARD.
+  /// buffers frame and species, texture units base_map_raw, triangles, surface, exclusions, placement; enables GL_RASTERIZER_DISCARD.
   /// Leaves: program 0, vertex array 0, feedback 0, those units (their samplers too) and bindings 0, discard disabled,
   /// and `restore_framebuffer` bound for drawing. The host must have no query of feedback or generated primitives
   /// active, here and in draw.
   void classify(const gl::Frame& frame, const gl::GroundTextures& ground, GLuint restore_framebuffer);
 
   /// Grows and draws every species, shadows included. Binds: programs, vertex array, uniform buffers frame and species,
-  /// texture units base_map, base_map_raw, triangles, surface, blade_shape; sets GL_PATCH_VERTICES 1.
+  /// texture units base_map, base_map_raw, triangles, surface, exclusions, placement, blade_shape; sets GL_PATCH_VERTICES 1.
   /// Leaves: program 0, vertex array 0, those units (their samplers too) and bindings 0, patch vertices 1.
   /// The host chooses depth test, depth mask, culling (must be off), blending (must be off). Thin plants cover some of a
   /// pixel's samples: the shaders write the mask (frame.samples() must be the target's), alpha is 1. Draws nothing

@@ -1,0 +1,73 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+#include "host/scene_maps.h"
+
+#include <map>
+
+#ifdef SWARD_IMAGE_IO
+#include <sward/image_io/image_io.h>
+#endif
+
+namespace sward::host {
+
+namespace {
+
+#ifdef SWARD_IMAGE_IO
+// Its place is the base map's, whatever is said here.
+Expected<ColorMap> load_map(const std::string& path) {
+  return load_color_map(path, glm::dvec2(0), glm::dvec2(1));
+}
+#else
+Expected<ColorMap> load_map(const std::string& path) {
+  return fail(path + ": this build reads no images; configure it with SWARD_IMAGE_IO=ON");
+}
+#endif
+
+Expected<std::shared_ptr<const GrayMap>> load_mask(const std::string& path) {
+  auto colors = load_map(path);
+  if (!colors) return tl::unexpected(colors.error());
+  auto mask = std::make_shared<GrayMap>();
+  mask->width = colors->width;
+  mask->height = colors->height;
+  mask->values.reserve(colors->texels.size());
+  for (const glm::u8vec4 texel : colors->texels) {
+    if (texel.r != texel.g || texel.g != texel.b) return fail(path + ": a mask must be grey, and this one has colours");
+    mask->values.push_back(texel.r);
+  }
+  if (auto valid = mask->validate(); !valid) return fail(path + " " + valid.error().message);
+  return std::shared_ptr<const GrayMap>(std::move(mask));
+}
+
+using Masks = std::map<std::string, std::shared_ptr<const GrayMap>>;
+
+Expected<void> fill_mask(const std::string& file, const Scene& scene, Masks& known,
+                         std::shared_ptr<const GrayMap>& mask) {
+  if (file.empty()) return {};
+  std::shared_ptr<const GrayMap>& kept = known[file];
+  if (!kept) {
+    auto loaded = load_mask(scene.resolve(file));
+    if (!loaded) return tl::unexpected(loaded.error());
+    kept = std::move(*loaded);
+  }
+  mask = kept;
+  return {};
+}
+
+}  // namespace
+
+Expected<void> load_maps(Scene& scene) {
+  Masks masks;
+  for (Layer& layer : scene.layers) {
+    if (auto filled = fill_mask(layer.mask_file, scene, masks, layer.mask); !filled) return filled;
+    for (Species& species : layer.species)
+      if (auto filled = fill_mask(species.mask_file, scene, masks, species.mask); !filled) return filled;
+    if (layer.distribution_file.empty()) continue;
+    auto colors = load_map(scene.resolve(layer.distribution_file));
+    if (!colors) return tl::unexpected(colors.error());
+    layer.distribution = std::make_shared<const ColorMap>(std::move(*colors));
+  }
+  return {};
+}
+
+}  // namespace sward::host

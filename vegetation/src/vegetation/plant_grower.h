@@ -1,0 +1,38 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The CPU twin of classification and growth, a triangle at a time.
+#include <sward/vegetation/plants.h>
+#include <span>
+#include <vector>
+
+#include "vegetation/layer_params.h"
+
+namespace sward {
+
+/// One layer over one map, as the shaders' uniforms and textures have it. Keeps references to all that it is made from.
+struct PlantGround {
+  const ColorMap& map;  ///< The distribution map, where the layer has one.
+  shared::LayerParams layer;
+  std::vector<shared::SpeciesParams> species;
+  std::vector<const GrayMap*> masks;
+  std::vector<glm::vec2> mask_scales;
+  std::span<const glm::vec4> exclusions;  ///< Seeding::exclusions.
+};
+PlantGround make_plant_ground(const Layer& layer, const View& view, const ColorMap& map, float sun_azimuth,
+                              std::span<const glm::vec4> exclusions);
+
+enum class SeedDistance {
+  eye,   ///< Of each seed, as the shaders have it.
+  near,  ///< 0: everything at full density.
+};
+
+/// Appends the plants of triangle i, whose record is given, by ranks.
+void grow_triangle(const PlantGround& ground, const FixedTriangles& triangles, size_t i, const TriangleRecord& record,
+                   uint32_t clusters, SeedDistance distance, std::vector<Plant>& plants);
+
+/// Descends the drawn surface below a triangle; `z_offset` is added to the nodes' heights.
+float walk_surface(const FixedTriangles& triangles, uint32_t node, float z_offset, shared::SurfaceWalk walk);
+
+}  // namespace sward
