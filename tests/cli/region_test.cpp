@@ -52,8 +52,8 @@ TEST_F(CliRegion, TheSeasonChangesHeights) {
 }
 
 TEST_F(CliRegion, RefusesWhatItCannotList) {
-  expect_error(run("plants " + scene() + " -o p.csv"), 1);  // neither frame nor place
-  expect_error(run("plants " + scene() + " --region 0,0,10,10 --at 1 -o p.csv"), 1);
+  expect_error(run("plants " + scene() + " -o p.csv"), 2);  // neither frame nor place
+  expect_error(run("plants " + scene() + " --region 0,0,10,10 --at 1 -o p.csv"), 2);
   expect_error(run("plants " + scene() + " --region 10,0,0,10 -o p.csv"), 1);
   const cli::Result many = run("plants " + scene() + " --region 0,0,100,100 --most 100 -o p.csv");
   expect_error(many, 1);

@@ -78,11 +78,8 @@ Expected<std::vector<Plant>> plants_by_gpu(const Scene& scene, const host::Scene
 }
 
 Expected<void> check_choice(const PlantsOptions& options) {
-  if (options.region.empty()) {
-    return options.at ? Expected<void>()
-                      : fail("name a frame of the flight (--at FRAME), or a place (--region x0,y0,x1,y1)");
-  }
-  if (options.at || options.gpu) return fail("--region lists a place and not a frame: it goes without --at and --gpu");
+  if (options.region.empty()) return {};
+  if (options.gpu) return fail("--region lists a place and not a frame: it goes without --gpu");
   return {};
 }
 
@@ -150,9 +147,11 @@ Command add_plants(CLI::App& parent) {
   add_scene_options(*app, options->scene, true);
   add_path_options(*app, options->path);
   add_season_option(*app, options->scene);
-  app->add_option("--at", options->at, "Frame of the flight")->type_name("FRAME");
-  app->add_option("--region", options->region,
-                  "All plants of a rectangle, at full density, instead of a frame's; metres")
+  CLI::App* what = app->add_option_group("Frame or place");
+  what->require_option(1);
+  what->add_option("--at", options->at, "Frame of the flight")->type_name("FRAME");
+  what->add_option("--region", options->region,
+                   "All plants of a rectangle, at full density, instead of a frame's; metres")
       ->type_name("x0,y0,x1,y1")
       ->check(as_check([](const std::string& text) { return parse_numbers(text, 4, 4); }));
   app->add_option("--most", options->most, "More plants in a region are an error")
