@@ -39,6 +39,30 @@ inline sward::View walk(const roam_support::Terrain& terrain, int path, int fram
   return sward::View::look({at, terrain.field->height(at) + above}, yaw, pitch, 0.87, k_viewport, 0.1, 2000);
 }
 
+inline roam_support::Terrain hills() {
+  roam_support::TerrainOptions options;
+  options.spacing = 4;
+  options.relief_m = 6;
+  return roam_support::make_terrain(options);
+}
+
+inline sward::ColorMap green(const sward::HeightField& field) {
+  return {1, 1, {{110, 130, 60, 255}}, field.min_corner(), field.max_corner() - field.min_corner()};
+}
+
+/// Grass that the green ground carries everywhere.
+inline sward::Layer meadow(sward::DensityLaw law, float horizon_m) {
+  sward::Layer layer;
+  sward::Species grass;
+  grass.reference_hsv = {77 / 360.0f, 0.54f, 0.51f};
+  layer.species = {grass};
+  layer.law = law;
+  layer.horizon_m = horizon_m;
+  layer.density = law == sward::DensityLaw::distance ? 60.0f : 8000.0f;
+  layer.ceiling = 200;
+  return layer;
+}
+
 using Plants = std::unordered_map<uint64_t, sward::Plant>;
 
 struct Frame {

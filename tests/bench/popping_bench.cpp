@@ -11,15 +11,10 @@ namespace {
 
 using sward::DensityLaw;
 
+constexpr float k_horizon_m = 60;
+
 sward::Layer meadow(DensityLaw law, bool plain) {
-  sward::Layer layer;
-  sward::Species grass;
-  grass.reference_hsv = {77 / 360.0f, 0.54f, 0.51f};
-  layer.species = {grass};
-  layer.law = law;
-  layer.horizon_m = 60;
-  layer.density = law == DensityLaw::distance ? 60.0f : 8000.0f;
-  layer.ceiling = 200;
+  sward::Layer layer = popping::meadow(law, k_horizon_m);
   layer.plain = plain;
   return layer;
 }
@@ -28,15 +23,8 @@ sward::Layer meadow(DensityLaw law, bool plain) {
 
 int main() {
   constexpr int k_frames = 300;
-  roam_support::TerrainOptions options;
-  options.spacing = 4;
-  options.relief_m = 6;
-  const auto terrain = roam_support::make_terrain(options);
-  const sward::ColorMap map{1,
-                            1,
-                            {{110, 130, 60, 255}},
-                            terrain.field->min_corner(),
-                            terrain.field->max_corner() - terrain.field->min_corner()};
+  const auto terrain = popping::hills();
+  const sward::ColorMap map = popping::green(*terrain.field);
   const char* const laws[] = {"distance", "screen_area", "world_area"};
   std::puts("| law | path | worst px | beyond 1 px | plain, worst px | beyond 1 px | compared |");
   std::puts("|---|---|---|---|---|---|---|");

@@ -9,28 +9,7 @@
 namespace sward {
 namespace {
 
-roam_support::Terrain hills() {
-  roam_support::TerrainOptions options;
-  options.spacing = 4;
-  options.relief_m = 6;
-  return roam_support::make_terrain(options);
-}
-
-ColorMap green(const HeightField& field) {
-  return {1, 1, {{110, 130, 60, 255}}, field.min_corner(), field.max_corner() - field.min_corner()};
-}
-
-Layer meadow(DensityLaw law) {
-  Layer layer;
-  Species grass;
-  grass.reference_hsv = {77 / 360.0f, 0.54f, 0.51f};
-  layer.species = {grass};
-  layer.law = law;
-  layer.horizon_m = 35;
-  layer.density = law == DensityLaw::distance ? 60.0f : 8000.0f;
-  layer.ceiling = 200;
-  return layer;
-}
+constexpr float k_horizon_m = 35;
 
 struct Walk {
   DensityLaw law;
@@ -40,9 +19,9 @@ struct Walk {
 class Popping : public testing::TestWithParam<Walk> {};
 
 TEST_P(Popping, NoHeightChangesByMoreThanAPixel) {
-  const auto terrain = hills();
-  const ColorMap map = green(*terrain.field);
-  Layer layer = meadow(GetParam().law);
+  const auto terrain = popping::hills();
+  const ColorMap map = popping::green(*terrain.field);
+  Layer layer = popping::meadow(GetParam().law, k_horizon_m);
   const auto jumps = popping::follow_walk(terrain, map, layer, GetParam().path, 24);
   EXPECT_GT(jumps.compared, 20000u);
   EXPECT_LE(jumps.worst_px, 1.0) << jumps.beyond_a_pixel << " of " << jumps.compared;
@@ -67,10 +46,10 @@ void expect_same_plants(const Layer& layer, const popping::Frame& a, const poppi
 }
 
 TEST(Turning, TheHeadOnTheSpotChangesNoPlant) {
-  const auto terrain = hills();
-  const ColorMap map = green(*terrain.field);
+  const auto terrain = popping::hills();
+  const ColorMap map = popping::green(*terrain.field);
   for (const DensityLaw law : {DensityLaw::distance, DensityLaw::screen_area, DensityLaw::world_area}) {
-    const Layer layer = meadow(law);
+    const Layer layer = popping::meadow(law, k_horizon_m);
     popping::Stage stage(terrain, layer);
     const View ahead = popping::walk(terrain, 0, 0);
     const glm::dvec3 eye = ahead.eye;
@@ -87,9 +66,9 @@ TEST(Turning, TheHeadOnTheSpotChangesNoPlant) {
 
 // A walk away and back: the same plants in the same places.
 TEST(Returning, BringsBackTheSamePlants) {
-  const auto terrain = hills();
-  const ColorMap map = green(*terrain.field);
-  const Layer layer = meadow(DensityLaw::distance);
+  const auto terrain = popping::hills();
+  const ColorMap map = popping::green(*terrain.field);
+  const Layer layer = popping::meadow(DensityLaw::distance, k_horizon_m);
   popping::Stage stage(terrain, layer);
   const auto first = stage.show(popping::walk(terrain, 0, 0), map, 0.0);
   for (const int frame : {200, 700, 1500, 700, 200})
