@@ -41,6 +41,13 @@ Leaf grass_leaf(SpeciesParams species, vec4 ground_and_age, float s, float acros
   return leaf;
 }
 
+// A plant's light far away is the ground's. `ground`: its normal; melting, 0 the plant alone, 1 the ground alone.
+vec3 melt_into_ground(vec3 lit, vec3 albedo, vec4 ground, vec3 point) {
+  vec3 around =
+      albedo * (ambient(ground.xyz) + sun_light() * max(dot(ground.xyz, frame.sun_direction.xyz), 0.0));
+  return apply_haze(mix(lit, around, ground.w), point);
+}
+
 // Equation 14; `normal` and `to_eye` are unit vectors, the normal on the viewer's side.
 vec3 shade_leaf(SpeciesParams species, Leaf leaf, vec3 normal, vec3 to_eye) {
   vec3 sun = frame.sun_direction.xyz;

@@ -40,9 +40,7 @@ vec3 ground_radiance() {
 vec3 visible_radiance() {
   SpeciesParams species = sward_layer.species[sward_species];
   vec3 lit = object_radiance(species, normalize(-part_point.xyz));
-  vec3 ground = part_color.rgb * (ambient(part_ground.xyz) +
-                                  sun_light() * max(dot(part_ground.xyz, frame.sun_direction.xyz), 0.0));
-  return apply_haze(mix(lit, ground, part_ground.w), part_point.xyz);
+  return melt_into_ground(lit, part_color.rgb, part_ground, part_point.xyz);
 }
 
 // A pattern that stays on the part while the eye moves: cells of its own coordinates about a pixel large.

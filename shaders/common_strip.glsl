@@ -39,9 +39,7 @@ vec3 lit_leaf(SpeciesParams species, Leaf leaf, float field) {
 // far away becomes the ground.
 vec3 meadow_color(SpeciesParams species, Leaf leaf) {
   vec3 lit = lit_leaf(species, leaf, mix(k_field_share, 0.8, strip_ground.w));
-  vec3 ground = strip_color.rgb * (ambient(strip_ground.xyz) +
-                                   sun_light() * max(dot(strip_ground.xyz, frame.sun_direction.xyz), 0.0));
-  return apply_haze(mix(lit, ground, strip_ground.w), strip_point.xyz);
+  return melt_into_ground(lit, strip_color.rgb, strip_ground, strip_point.xyz);
 }
 
 // The samples of this fragment that are covered; 0: none, it is to be discarded.

@@ -118,15 +118,18 @@ const BadSpecies k_bad_species[] = {
     {"shininess", [](Species& s) { s.shininess = 0.5f; }},
 };
 
+void expect_refused(const Layer& layer, const std::string& field) {
+  const auto result = validate(layer);
+  ASSERT_FALSE(result) << field;
+  const std::string& message = result.error().message;
+  EXPECT_NE(message.find("layer 'ground': species 1 'sedge': " + field), std::string::npos) << message;
+}
+
 TEST(ValidateSpecies, NamesLayerSpeciesAndFieldOutOfRange) {
   for (const BadSpecies& bad : k_bad_species) {
     Layer layer = good_layer();
     bad.spoil(layer.species[1]);
-    const auto result = validate(layer);
-    ASSERT_FALSE(result) << bad.field;
-    const std::string& message = result.error().message;
-    EXPECT_NE(message.find("layer 'ground': species 1 'sedge': " + std::string(bad.field)), std::string::npos)
-        << message;
+    expect_refused(layer, bad.field);
   }
 }
 
@@ -187,11 +190,7 @@ TEST(ValidateSpecies, NamesWhatIsWrongWithAKind) {
   for (const BadSpecies& bad : k_bad_kinds) {
     Layer layer = good_layer();
     bad.spoil(layer.species[1]);
-    const auto result = validate(layer);
-    ASSERT_FALSE(result) << bad.field;
-    const std::string& message = result.error().message;
-    EXPECT_NE(message.find("layer 'ground': species 1 'sedge': " + std::string(bad.field)), std::string::npos)
-        << message;
+    expect_refused(layer, bad.field);
     // What another kind reads is nothing to this one.
     layer.species[1].kind = PlantKind::blade;
     EXPECT_TRUE(validate(layer)) << bad.field;

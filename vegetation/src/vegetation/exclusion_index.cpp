@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vegetation/shared_glsl.h"
+
 namespace sward {
 
 namespace {
 
-constexpr float k_disc = 1.0f, k_polygon = 2.0f;
+constexpr float k_polygon = 2.0f;
 constexpr size_t k_most_cells = 65536;
 constexpr double k_least_cell_m = 8.0;
 
@@ -121,7 +123,7 @@ Reach ExclusionIndex::shapes_near(glm::dvec2 apex, glm::vec2 to_left, glm::vec2 
     if (reach == Reach::all) return Reach::all;
     const glm::dvec2 centre = disc.centre - apex;
     if (reach == Reach::some)
-      run.emplace_back(float(centre.x), float(centre.y), float(disc.radius_m * disc.radius_m), k_disc);
+      run.emplace_back(float(centre.x), float(centre.y), float(disc.radius_m * disc.radius_m), shared::k_shape_disc);
   }
   for (const PolygonPart& part : cell.polygons) {
     const std::vector<glm::dvec2>& corners = exclusions_->entries()[part.entry].shape.corners;

@@ -92,6 +92,18 @@ Expected<void> check_polygon(const std::vector<glm::dvec2>& corners) {
   return check_simple(corners);
 }
 
+/// A shape that is valid, with its bounds.
+void put(ExclusionShape shape, Exclusions::Entry& to) {
+  to.low = to.high = shape.corners.empty() ? shape.centre : shape.corners.front();
+  for (const glm::dvec2 corner : shape.corners) {
+    to.low = glm::min(to.low, corner);
+    to.high = glm::max(to.high, corner);
+  }
+  to.low -= shape.radius_m;
+  to.high += shape.radius_m;
+  to.shape = std::move(shape);
+}
+
 /// Differs between objects and from every number before.
 uint64_t next_version() {
   static std::atomic<uint64_t> versions{1};
@@ -158,7 +170,8 @@ Expected<ExclusionId> Exclusions::add(ExclusionShape shape) {
   free_.pop_back();
   entries_[id.index].used = true;
   ++count_;
-  if (auto placed = replace(id, std::move(shape)); !placed) return tl::unexpected(placed.error());
+  put(std::move(shape), entries_[id.index]);
+  changed();
   return id;
 }
 
@@ -166,14 +179,7 @@ Expected<void> Exclusions::replace(ExclusionId id, ExclusionShape shape) {
   if (auto valid = shape.validate(); !valid) return valid;
   Entry* const to = entry(id);
   if (to == nullptr) return fail("no excluded shape has this id: it was removed, or belongs to other shapes");
-  to->low = to->high = shape.corners.empty() ? shape.centre : shape.corners.front();
-  for (const glm::dvec2 corner : shape.corners) {
-    to->low = glm::min(to->low, corner);
-    to->high = glm::max(to->high, corner);
-  }
-  to->low -= shape.radius_m;
-  to->high += shape.radius_m;
-  to->shape = std::move(shape);
+  put(std::move(shape), *to);
   changed();
   return {};
 }

@@ -44,8 +44,8 @@ struct PlantQueryOptions {
   float sun_azimuth = 0.0f;                ///< Radians; only phototropic species ask for it.
 };
 
-/// The plants whose roots lie in a region, exactly those that the GPU draws near by, at full density (distance 0; the
-/// ceiling under the other laws), z from the finest data. Needs neither a view nor a context. Order: triangles, ranks.
+/// The plants whose roots lie in a region at full density, z from the finest data: exactly those that the GPU draws near
+/// by under the distance law; under the other laws as many as the ceiling lets, of which a view may draw fewer. Needs neither a view nor a context. Order: triangles, ranks.
 /// Over a world the data are those that are resident. Fails on a layer that does not validate or lacks maps, on a
 /// region that is empty or not finite, and where more than `most_plants` stand there or more than 64 times as many
 /// would have to be looked at. Cost: that of grow_plants for the region's triangles, and three heights each. Any
