@@ -67,14 +67,17 @@ void grow_line(FertileCluster fertile) {
 void write_lines() {
   uint lines = 0u;
   float parts = 1.0;
-  for (int slot = 0; slot < object_slots.length(); ++slot) object_slots[slot] = 0u;
+  // Outputs are only written: one vendor's compiler refuses indexed ones that are read again.
+  uint slots[(SWARD_CLUSTER_SIZE + 3) / 4];
+  for (int slot = 0; slot < slots.length(); ++slot) slots[slot] = 0u;
   for (uint i = 0u; i < uint(SWARD_CLUSTER_SIZE); ++i) {
     if (object_root[i].w <= 0.0) continue;
-    object_slots[lines / 4u] |= i << (8u * (lines % 4u));
+    slots[lines / 4u] |= i << (8u * (lines % 4u));
     parts = max(parts, object_self[i].z);
     ++lines;
   }
   object_patch = uvec2(cluster_words[0].x, 0u);
+  for (int slot = 0; slot < slots.length(); ++slot) object_slots[slot] = slots[slot];
   gl_TessLevelOuter[0] = float(lines);
   gl_TessLevelOuter[1] = parts;
   gl_TessLevelOuter[2] = 1.0;

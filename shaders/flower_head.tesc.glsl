@@ -88,13 +88,16 @@ void main() {
 
   uint lines = 0u;
   float largest = 0.0;
-  for (int slot = 0; slot < head_slots.length(); ++slot) head_slots[slot] = 0u;
+  // Outputs are only written: one vendor's compiler refuses indexed ones that are read again.
+  uint slots[(SWARD_CLUSTER_SIZE + 3) / 4];
+  for (int slot = 0; slot < slots.length(); ++slot) slots[slot] = 0u;
   for (uint i = 0u; i < uint(SWARD_CLUSTER_SIZE); ++i) {
     if (head_place[i].w <= 0.0) continue;
-    head_slots[lines / 4u] |= i << (8u * (lines % 4u));
+    slots[lines / 4u] |= i << (8u * (lines % 4u));
     largest = max(largest, head_color[i].w);
     ++lines;
   }
+  for (int slot = 0; slot < slots.length(); ++slot) head_slots[slot] = slots[slot];
   gl_TessLevelOuter[0] = float(lines);
   gl_TessLevelOuter[1] = largest > k_dot_px ? head_petals(sward_layer.species[sward_species]) : 1.0;
   gl_TessLevelOuter[2] = 1.0;

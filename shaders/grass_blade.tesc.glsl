@@ -51,13 +51,16 @@ void main() {
   // Lines only for what is drawn; the nearest of them decides the segments of all.
   uint lines = 0u;
   float nearest = 1.0e9;
-  for (int slot = 0; slot < blade_slots.length(); ++slot) blade_slots[slot] = 0u;
+  // Outputs are only written: one vendor's compiler refuses indexed ones that are read again.
+  uint slots[(SWARD_CLUSTER_SIZE + 3) / 4];
+  for (int slot = 0; slot < slots.length(); ++slot) slots[slot] = 0u;
   for (uint i = 0u; i < uint(SWARD_CLUSTER_SIZE); ++i) {
     if (blade_root[i].w <= 0.0) continue;
-    blade_slots[lines / 4u] |= i << (8u * (lines % 4u));
+    slots[lines / 4u] |= i << (8u * (lines % 4u));
     nearest = min(nearest, blade_self[i].z);
     ++lines;
   }
+  for (int slot = 0; slot < slots.length(); ++slot) blade_slots[slot] = slots[slot];
   gl_TessLevelOuter[0] = float(lines);
   gl_TessLevelOuter[1] = segment_count(sward_layer.species[sward_species], sward_layer.layer, nearest);
   gl_TessLevelOuter[2] = 1.0;

@@ -82,17 +82,21 @@ void main() {
   shoot_first = first_shoot();
   uint lines = 0u;
   float nearest = 1.0e9;
-  for (int slot = 0; slot < 4; ++slot) shoot_slots[slot] = uvec4(0u);
+  // Outputs are only written: one vendor's compiler refuses indexed ones that are read again.
+  uint slots[16];
+  for (int slot = 0; slot < 16; ++slot) slots[slot] = 0u;
   for (int plant = 0; plant < SWARD_CLUSTER_SIZE; ++plant) {
     if (plant_root[plant].w <= 0.0) continue;
     int shoots = min(int(ceil(plant_self[plant].x - k_least_shoot)) - first_shoot(), SWARD_SHOOTS_PER_PATCH);
     for (int i = 0; i < shoots; ++i) {
       uint code = uint(plant * SWARD_SHOOTS_PER_PATCH + i);
-      shoot_slots[lines / 16u][(lines / 4u) % 4u] |= code << (8u * (lines % 4u));
+      slots[lines / 4u] |= code << (8u * (lines % 4u));
       ++lines;
     }
     if (shoots > 0) nearest = min(nearest, plant_self[plant].z);
   }
+  for (int slot = 0; slot < 4; ++slot)
+    shoot_slots[slot] = uvec4(slots[4 * slot], slots[4 * slot + 1], slots[4 * slot + 2], slots[4 * slot + 3]);
   gl_TessLevelOuter[0] = float(lines);
   gl_TessLevelOuter[1] = segment_count(sward_layer.species[sward_species], sward_layer.layer, nearest);
   gl_TessLevelOuter[2] = 1.0;

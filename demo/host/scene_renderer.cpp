@@ -133,6 +133,7 @@ void SceneRenderer::Impl::gather(bool wait, SceneFrameStats& stats) {
     stats.vegetation.clusters_submitted += one.clusters_submitted;
     stats.vegetation.clusters_fertile += one.clusters_fertile;
     stats.vegetation.primitives += one.primitives;
+    if (one.fragments) stats.vegetation.fragments = stats.vegetation.fragments.value_or(0) + *one.fragments;
     stats.vegetation.overflow = stats.vegetation.overflow || one.overflow;
   }
 }

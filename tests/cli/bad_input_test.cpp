@@ -59,6 +59,7 @@ const BadInput k_cases[] = {
     {"FrameBeyondTheFlight", "mesh SCENE --fps 1 --at 30 -o a.ply", 1, "frames 0 to 29"},
     {"PlantsBeyondTheFlight", "plants SCENE --fps 1 --at 30 -o a.csv", 1, "frames 0 to 29"},
     {"FlightTooLong", "fly SCENE --seconds 31 --csv a.csv", 1, "30"},
+    {"FlightTooLongFrom", "fly SCENE --from 20 --seconds 11 --csv a.csv", 1, "30"},
     {"NoFramesASecond", "mesh SCENE --fps 0", 1, "--fps"},
     // Files.
     {"MissingScene", "render nowhere.toml -o a.ppm", 1, "nowhere.toml"},

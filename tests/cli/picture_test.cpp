@@ -14,8 +14,8 @@ namespace {
 // Of CONTRACT's list; a scene may have more.
 const char* const k_figures[] = {
     "plants",          "clusters_submitted", "clusters_fertile", "fixed_triangles", "triangles_visible",
-    "triangles_drawn", "bound_px",           "cpu_roam_ms",      "cpu_seeding_ms",  "gpu_terrain_ms",
-    "gpu_classify_ms", "gpu_grow_ms",        "frame_ms",         "peak_rss_mb"};
+    "triangles_drawn", "grow_fragments",     "bound_px",         "cpu_roam_ms",     "cpu_seeding_ms",
+    "gpu_terrain_ms",  "gpu_classify_ms",    "gpu_grow_ms",      "frame_ms",        "peak_rss_mb"};
 const std::set<std::string> k_gpu_times{"gpu_terrain_ms", "gpu_classify_ms", "gpu_grow_ms"};
 
 class CliPictures : public cli::CliTest {

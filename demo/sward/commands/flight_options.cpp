@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "sward/arguments.h"
 
@@ -14,6 +15,9 @@ void add_path_options(CLI::App& app, PathOptions& options) {
   app.add_option("--flight", options.flight, "Camera path: the built-in one, or a CSV file with one row a frame")
       ->type_name("paper|FILE.csv")
       ->capture_default_str();
+  app.add_option("--from", options.from_s, "Leave out so much of the path; the paper's flight is low from 10 to 20")
+      ->type_name("SECONDS")
+      ->capture_default_str();
   app.add_option("--seconds", options.seconds, "Only so much of the path")->type_name("SECONDS");
   app.add_option("--fps", options.fps, "Frames a second of paths without times")->type_name("N")->capture_default_str();
 }
@@ -22,8 +26,11 @@ Expected<void> check_path(const PathOptions& options) {
   if (!(options.fps > 0 && options.fps <= 10000)) return fail("--fps must be above 0 and at most 10000");
   if (options.seconds && !(*options.seconds > 0 && std::isfinite(*options.seconds)))
     return fail("--seconds must be a finite number above 0");
-  if (options.flight == "paper" && options.seconds.value_or(1) > host::k_paper_flight_s)
-    return fail("the paper flight is 30 s long; --seconds must be at most 30");
+  if (!(options.from_s >= 0 && std::isfinite(options.from_s)))
+    return fail("--from must be a finite number of 0 or more");
+  if (options.flight == "paper" && (options.from_s >= host::k_paper_flight_s ||
+                                    options.from_s + options.seconds.value_or(0) > host::k_paper_flight_s))
+    return fail("the paper flight is 30 s long; --from and --seconds together must be at most 30");
   std::error_code ignored;
   if (options.flight != "paper" && !std::filesystem::is_regular_file(options.flight, ignored))
     return fail(options.flight + ": there is no such flight; name a CSV file or the built-in \"paper\"");
@@ -43,12 +50,14 @@ Expected<std::vector<host::FlightFrame>> make_path(const PathOptions& options, c
   path.viewport = *size;
   path.near_plane = host::k_near_plane_m;
   path.far_plane = host::far_plane_m(terrain.surface());
-  if (options.flight == "paper")
-    return host::paper_flight(terrain.surface(), options.seconds.value_or(host::k_paper_flight_s), path);
-  auto frames = host::load_flight(options.flight, path);
-  if (!frames || !options.seconds) return frames;
-  const double end = frames->front().time_s + *options.seconds;
-  std::erase_if(*frames, [end](const host::FlightFrame& frame) { return frame.time_s >= end; });
+  auto frames = options.flight == "paper" ? host::paper_flight(terrain.surface(), host::k_paper_flight_s, path)
+                                          : host::load_flight(options.flight, path);
+  if (!frames) return frames;
+  // Times of frames are sums of 1/fps: half a millisecond is no frame.
+  const double begin = frames->front().time_s + options.from_s - 0.0005;
+  const double end = options.seconds ? begin + *options.seconds : std::numeric_limits<double>::infinity();
+  std::erase_if(*frames, [=](const host::FlightFrame& f) { return f.time_s < begin || f.time_s >= end; });
+  if (frames->empty()) return fail("no frame of the flight is left; lower --from or raise --seconds");
   return frames;
 }
 

@@ -13,6 +13,7 @@ namespace sward::tool {
 /// The options that name a camera path.
 struct PathOptions {
   std::string flight = "paper";   ///< "paper" or a CSV file.
+  double from_s = 0;              ///< Leaves out what comes before.
   std::optional<double> seconds;  ///< Cuts the path off; empty: all of it.
   double fps = 60;
   std::string size = "1920x1080";  ///< Viewport of paths that have none.

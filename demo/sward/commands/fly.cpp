@@ -26,6 +26,7 @@ struct FlyOptions {
   SceneOptions scene;
   PathOptions path;
   std::string samples = "max", csv, summary, plots, video;
+  int repeat = 1;
   bool no_plants = false, wait = false;
 };
 
@@ -86,12 +87,17 @@ Expected<Flown> fly_frames(const FlyOptions& options, const Scene& scene, const 
   };
   if (auto warmed = draw(path.front()); !warmed) return tl::unexpected(warmed.error());
   for (const host::FlightFrame& frame : path) {
-    const auto begin = std::chrono::steady_clock::now();
-    auto stats = draw(frame);
-    const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - begin;
-    if (!stats) return tl::unexpected(stats.error());
-    const size_t plants = pass.plants ? renderer.plants_cpu(frame.view).size() : 0;
-    flown.frames.push_back(make_figures(*stats, frame.time_s, spent.count(), plants));
+    std::vector<FrameFigures> drawn;
+    size_t plants = 0;
+    for (int i = 0; i < options.repeat; ++i) {
+      const auto begin = std::chrono::steady_clock::now();
+      auto stats = draw(frame);
+      const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - begin;
+      if (!stats) return tl::unexpected(stats.error());
+      if (pass.plants && i == 0) plants = renderer.plants_cpu(frame.view).size();
+      drawn.push_back(make_figures(*stats, frame.time_s, spent.count(), plants));
+    }
+    flown.frames.push_back(median_figures(drawn));
     if (video)
       if (auto written = video->write(target.read_rgb()); !written) return tl::unexpected(written.error());
     progress.show(float(flown.frames.size()) / float(path.size()));
@@ -214,6 +220,12 @@ Command add_fly(CLI::App& parent) {
   app->add_option("--samples", options->samples, "Samples a pixel, or max")
       ->type_name("N|max")
       ->check(as_check(parse_samples))
+      ->capture_default_str();
+  app->add_option("--repeat", options->repeat,
+                  "Draw every frame so many times and take each figure's median: steadier where a GPU lowers its clock "
+                  "between frames")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   add_wait_option(*app, options->wait);
   app->add_flag("--no-plants", options->no_plants, "Terrain and sky alone");

@@ -22,6 +22,7 @@ constexpr FigureColumn k_columns[] = {
     {"fixed_triangles", &FrameFigures::fixed_triangles},
     {"triangles_visible", &FrameFigures::triangles_visible},
     {"triangles_drawn", &FrameFigures::triangles_drawn},
+    {"grow_fragments", &FrameFigures::grow_fragments},
     {"splits", &FrameFigures::splits},
     {"merges", &FrameFigures::merges},
     {"bound_px", &FrameFigures::bound_px},
@@ -60,6 +61,7 @@ FrameFigures make_figures(const host::SceneFrameStats& stats, double time_s, dou
   figures.fixed_triangles = stats.fixed_triangles;
   figures.triangles_visible = stats.roam.visible;
   figures.triangles_drawn = double(stats.vegetation.primitives) + stats.roam.visible;
+  if (stats.vegetation.fragments) figures.grow_fragments = double(*stats.vegetation.fragments);
   figures.splits = stats.roam.splits;
   figures.merges = stats.roam.merges;
   figures.bound_px = double(stats.bound_px);
@@ -77,6 +79,18 @@ FrameFigures make_figures(const host::SceneFrameStats& stats, double time_s, dou
   figures.world_mb = double(stats.world->bytes) / (1 << 20);
   figures.cpu_stream_ms = stats.cpu_stream_ms;
   return figures;
+}
+
+FrameFigures median_figures(std::span<const FrameFigures> frames) {
+  SWARD_ASSERT(!frames.empty(), "median_figures: no frames");
+  FrameFigures middle = frames.front();
+  for (const FigureColumn& column : k_columns) {
+    std::vector<double> values;
+    for (const FrameFigures& frame : frames)
+      if (const Figure& figure = frame.*column.member) values.push_back(*figure);
+    if (!values.empty()) middle.*column.member = summarise(std::move(values)).median;
+  }
+  return middle;
 }
 
 double peak_rss_mb() {

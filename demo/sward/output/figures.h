@@ -22,6 +22,7 @@ struct FrameFigures {
   Figure fixed_triangles;
   Figure triangles_visible;  ///< Terrain leaves drawn.
   Figure triangles_drawn;    ///< All that were rasterised: terrain, plants, shadows.
+  Figure grow_fragments;     ///< Runs of growth's fragment shaders.
   Figure splits, merges;
   Figure bound_px;
   Figure squares_resident, squares_wanted, squares_failing, world_mb;  ///< Empty where the ground is no world.
@@ -40,6 +41,8 @@ struct FigureColumn {
 std::span<const FigureColumn> figure_columns();
 
 FrameFigures make_figures(const host::SceneFrameStats& stats, double time_s, double frame_ms, size_t plants);
+/// The median of each figure, of drawings of one frame (not empty); time_s is the first's.
+FrameFigures median_figures(std::span<const FrameFigures> frames);
 
 /// Largest memory the process has held so far, in 10^6 bytes.
 double peak_rss_mb();

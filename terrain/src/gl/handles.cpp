@@ -49,6 +49,10 @@ Query create_query(GLenum target) {
   return create<Query>([target](GLuint* id) { glCreateQueries(target, 1, id); });
 }
 
+Query name_query() {
+  return create<Query>([](GLuint* id) { glGenQueries(1, id); });
+}
+
 Feedback create_feedback() {
   return create<Feedback>([](GLuint* id) { glCreateTransformFeedbacks(1, id); });
 }

@@ -29,6 +29,8 @@ StageQueries StageQueries::create(size_t streams) {
     queries.generated_.push_back(gl::create_query(GL_PRIMITIVES_GENERATED));
   }
   queries.primitives_ = gl::create_query(GL_PRIMITIVES_GENERATED);
+  if (epoxy_has_gl_extension("GL_ARB_pipeline_statistics_query"))
+    queries.fragments_ = gl::name_query();
   return queries;
 }
 
@@ -50,9 +52,11 @@ void StageQueries::end_stream(const StreamPlace& place) {
 
 void StageQueries::begin_growth() {
   glBeginQuery(GL_PRIMITIVES_GENERATED, primitives_.id());
+  if (fragments_) glBeginQuery(GL_FRAGMENT_SHADER_INVOCATIONS_ARB, fragments_->id());
 }
 
 void StageQueries::end_growth() {
+  if (fragments_) glEndQuery(GL_FRAGMENT_SHADER_INVOCATIONS_ARB);
   glEndQuery(GL_PRIMITIVES_GENERATED);
   drawn_ = true;
 }
@@ -72,7 +76,9 @@ VegetationStats StageQueries::read() const {
     stats.clusters_fertile += uint32_t(written);
     stats.overflow = stats.overflow || result_of(generated_[i]) > written;
   }
-  if (drawn_) stats.primitives = result_of(primitives_);
+  if (!drawn_) return stats;
+  stats.primitives = result_of(primitives_);
+  if (fragments_) stats.fragments = result_of(*fragments_);
   return stats;
 }
 

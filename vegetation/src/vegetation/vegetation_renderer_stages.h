@@ -58,6 +58,7 @@ class StageQueries {
  private:
   std::vector<gl::Query> written_, generated_;  ///< One a growing species.
   gl::Query primitives_;
+  std::optional<gl::Query> fragments_;
   uint32_t clusters_submitted_ = 0;
   bool classified_ = false, drawn_ = false;
 };

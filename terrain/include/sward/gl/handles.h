@@ -60,6 +60,8 @@ Buffer create_buffer();
 Texture create_texture(GLenum target);
 VertexArray create_vertex_array();
 Query create_query(GLenum target);
+/// A query that takes its target when it is first begun: Mesa 22.3's glCreateQueries refuses pipeline statistics.
+Query name_query();
 Feedback create_feedback();
 Framebuffer create_framebuffer();
 

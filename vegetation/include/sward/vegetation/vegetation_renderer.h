@@ -10,6 +10,7 @@
 #include <sward/vegetation/plants.h>
 #include <sward/vegetation/seeding.h>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace sward {
@@ -18,7 +19,10 @@ struct VegetationStats {
   uint32_t clusters_submitted = 0;
   uint32_t clusters_fertile = 0;  ///< Fed back. From the GPU's queries of an earlier frame unless waited for.
   uint64_t primitives = 0;        ///< Triangles rasterised, shadows included (same remark).
-  bool overflow = false;          ///< A feedback buffer was too small: never, tests assert it.
+  /// Runs of growth's fragment shaders (same remark); none where the driver cannot count them
+  /// (GL_ARB_pipeline_statistics_query).
+  std::optional<uint64_t> fragments;
+  bool overflow = false;  ///< A feedback buffer was too small: never, tests assert it.
 };
 
 /// Draws one layer. Owns its programs, feedback buffers and uniform buffers. GL thread.
@@ -34,13 +38,13 @@ class VegetationRenderer {
 
   const Layer& layer() const;
 
-  /// The time of the year from the next classify on (Layer::season; finite, asserted): colours, heights and densities of
-  /// species with seasons. Nothing is seeded or built anew, plants keep ids and places. Between two seedings too. Binds
-  /// nothing. Cost: a write of 11 KB.
+  /// The time of the year from the next classify on (Layer::season; finite, asserted): colours, heights and densities
+  /// of species with seasons. Nothing is seeded or built anew, plants keep ids and places. Between two seedings too.
+  /// Binds nothing. Cost: a write of 11 KB.
   void set_season(float season);
-  /// Gives a species (index in the layer) values of the host's own, for what follows no year: they take the place of its
-  /// seasons. Fails, changing nothing, on values out of range. A reference colour that jumps swaps plants at once; ones
-  /// that are to be exchanged smoothly stand in seasons.
+  /// Gives a species (index in the layer) values of the host's own, for what follows no year: they take the place of
+  /// its seasons. Fails, changing nothing, on values out of range. A reference colour that jumps swaps plants at once;
+  /// ones that are to be exchanged smoothly stand in seasons.
   Expected<void> set_values(size_t species, const SeasonValues& values);
 
   /// One upload of a frame's seeding and surface, for the view that they were made for; grows buffers when a frame
@@ -51,18 +55,18 @@ class VegetationRenderer {
 
   /// Classifies the uploaded clusters into one feedback stream a species, by passes of four. Call after upload, before
   /// draw, once a frame. Binds: program, vertex array, transform feedback, draw framebuffer (its own, 1 x 1), uniform
-  /// buffers frame and species, texture units base_map_raw, triangles, surface, exclusions, placement; enables GL_RASTERIZER_DISCARD.
-  /// Leaves: program 0, vertex array 0, feedback 0, those units (their samplers too) and bindings 0, discard disabled,
-  /// and `restore_framebuffer` bound for drawing. The host must have no query of feedback or generated primitives
-  /// active, here and in draw.
+  /// buffers frame and species, texture units base_map_raw, triangles, surface, exclusions, placement; enables
+  /// GL_RASTERIZER_DISCARD. Leaves: program 0, vertex array 0, feedback 0, those units (their samplers too) and
+  /// bindings 0, discard disabled, and `restore_framebuffer` bound for drawing. The host must have no query of
+  /// feedback, generated primitives or fragment shader runs active, here and in draw.
   void classify(const gl::Frame& frame, const gl::GroundTextures& ground, GLuint restore_framebuffer);
 
   /// Grows and draws every species, shadows included. Binds: programs, vertex array, uniform buffers frame and species,
-  /// texture units base_map, base_map_raw, triangles, surface, exclusions, placement, blade_shape; sets GL_PATCH_VERTICES 1.
-  /// Leaves: program 0, vertex array 0, those units (their samplers too) and bindings 0, patch vertices 1.
-  /// The host chooses depth test, depth mask, culling (must be off), blending (must be off). Thin plants cover some of a
-  /// pixel's samples: the shaders write the mask (frame.samples() must be the target's), alpha is 1. Draws nothing
-  /// before the first classify.
+  /// texture units base_map, base_map_raw, triangles, surface, exclusions, placement, blade_shape; sets
+  /// GL_PATCH_VERTICES 1. Leaves: program 0, vertex array 0, those units (their samplers too) and bindings 0, patch
+  /// vertices 1. The host chooses depth test, depth mask, culling (must be off), blending (must be off). Thin plants
+  /// cover some of a pixel's samples: the shaders write the mask (frame.samples() must be the target's), alpha is 1.
+  /// Draws nothing before the first classify.
   void draw(const gl::Frame& frame, const gl::GroundTextures& ground);
 
   /// Results of the queries of the last classify and draw; `wait` blocks until they are there.
