@@ -96,6 +96,7 @@ ColorMap paint_map(const Lattice& lattice, glm::ivec2 texels, PaintAt&& paint_at
       const Paint paint = paint_at(map.min_corner + at * map.size, column, row);
       map.texels.emplace_back(glm::u8vec3(glm::clamp(paint.color + 0.5, 0.0, 255.0)), paint.plants ? 255 : 0);
     }
+  map.bounds = bound_colors(map);
   return map;
 }
 

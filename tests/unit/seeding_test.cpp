@@ -183,6 +183,22 @@ TEST(Seed, PutsEveryTriangleIntoTheBinOfItsCount) {
   for (size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], triangles.distance()[i] <= 100.0f) << i;
 }
 
+TEST(Seed, RecordsOfABinStandNearToFar) {
+  const View view = test::view_at({40.0, -40.0, 2.0});
+  const FixedTriangles ground = test::level_ground(128.0, 12, view.eye, 60.0);
+  Layer layer;
+  layer.horizon_m = 60.0f;
+  Seeding seeding;
+  seed(layer, view, ColorMap{1, 1, {glm::u8vec4(90, 120, 40, 255)}, {0.0, -128.0}, {128.0, 128.0}}, ground, seeding);
+  ASSERT_GT(seeding.records.size(), 1000u);
+  for (const DensityBin& bin : seeding.bins)
+    for (uint32_t i = 1; i < bin.triangles; ++i) {
+      const float before = ground.distance()[seeding.source[bin.first + i - 1]];
+      const float here = ground.distance()[seeding.source[bin.first + i]];
+      EXPECT_GE(here, before - 2.0f * std::sqrt(before * 60.0f) / 1024.0f - 1.0e-4f);
+    }
+}
+
 TEST(Seed, OneCountFillsOneBin) {
   const Layer layer = law_layer(DensityLaw::distance, 50.0f);
   FixedTriangles triangles;

@@ -67,6 +67,7 @@ Expected<ColorMap> load(const std::string& path, glm::dvec2 min_corner, glm::dve
   else
     fill_texels<uint16_t>(*image, map);
   if (auto valid = map.validate(); !valid) return fail(name + ": " + valid.error().message);
+  map.bounds = bound_colors(map);
   return map;
 }
 

@@ -46,6 +46,7 @@ ColorMap color_map(generated::Paint paint, int texels, double size) {
   map.texels = std::move(paint.texels);
   map.min_corner = glm::dvec2(-0.5 * size);
   map.size = glm::dvec2(size);
+  map.bounds = bound_colors(map);
   return map;
 }
 

@@ -12,8 +12,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "vegetation/exclusion_index.h"
+#include "vegetation/fertile_ground.h"
 #include "vegetation/triangle_record.h"
 
 namespace sward {
@@ -165,8 +167,30 @@ void follow_exclusions(const Layer& layer, const FixedTriangles& triangles, cons
   out.exclusions.assign(1, glm::vec4(0.0f));
 }
 
+/// Places on the map that classification reads, in its texels.
+struct TexelPlaces {
+  glm::dvec2 corner, texels_per_m;
+
+  TexelPlaces(const Layer& layer, const ColorMap& map)
+      : corner(map.min_corner.x, map.min_corner.y + map.size.y),
+        texels_per_m(glm::dvec2(classification_map(layer, geometry_of(map)).texels) / map.size * glm::dvec2(1, -1)) {}
+
+  glm::dvec2 operator()(glm::dvec2 at) const { return (at - corner) * texels_per_m; }
+};
+
+/// Whether the ground's colours can feed no species on triangle i.
+bool barren(FertileGround& ground, const TexelPlaces& places, const FixedTriangles& triangles, size_t i) {
+  const glm::dvec2 apex(triangles.apex()[i]);
+  return ground.barren(places(apex), places(apex + glm::dvec2(triangles.to_left()[i])),
+                       places(apex + glm::dvec2(triangles.to_right()[i])));
+}
+
 /// Seeds of every triangle; their smallest and largest number goes to n_min and n_max.
-void count_seeds(const Layer& layer, const View& view, const FixedTriangles& triangles, Seeding& out) {
+void count_seeds(const Layer& layer, const View& view, const ColorMap& map, const FixedTriangles& triangles,
+                 Seeding& out) {
+  if (!out.scratch.ground) out.scratch.ground = std::make_shared<FertileGround>();
+  out.scratch.ground->follow(layer, map);
+  const TexelPlaces places(layer, map);
   const float zoom = float(view.zoom());
   const float full = layer.law == DensityLaw::distance ? layer.density : 0.0f;
   uint32_t least = UINT32_MAX, most = 0;
@@ -177,7 +201,8 @@ void count_seeds(const Layer& layer, const View& view, const FixedTriangles& tri
     const uint32_t submitted = limit > 0.0f ? uint32_t(std::ceil(std::min(limit, k_most_seeds))) : 0u;
     out.counts[i] = {full > 0.0f ? area[i] * full : limit, submitted, 0, 0};
     if (submitted == 0) continue;
-    if (!out.scratch.index->empty() && excluded(triangles, i, out)) {
+    if (barren(*out.scratch.ground, places, triangles, i) ||
+        (!out.scratch.index->empty() && excluded(triangles, i, out))) {
       out.counts[i].submitted = 0;
       continue;
     }
@@ -219,6 +244,26 @@ void lay_out_bins(const Layer& layer, Seeding& out) {
   out.source.resize(first);
 }
 
+/// Triangles that submit seeds, nearest first to within steps of 2 sqrt(d r) / 1024 metres, r being the farthest: what
+/// is drawn first hides the rest before it is shaded.
+void sort_by_distance(const FixedTriangles& triangles, Seeding& out) {
+  constexpr size_t k_steps = 1024;
+  const std::span<const float> distance = triangles.distance();
+  float farthest = 1.0e-3f;
+  for (size_t i = 0; i < triangles.size(); ++i)
+    if (out.counts[i].submitted > 0) farthest = std::max(farthest, distance[i]);
+  const auto step = [&](size_t i) {
+    return std::min(size_t(float(k_steps) * std::sqrt(distance[i] / farthest)), k_steps - 1);
+  };
+  std::array<uint32_t, k_steps + 1> next{};
+  for (size_t i = 0; i < triangles.size(); ++i)
+    if (out.counts[i].submitted > 0) ++next[step(i) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  out.scratch.near_first.resize(next.back());
+  for (size_t i = 0; i < triangles.size(); ++i)
+    if (out.counts[i].submitted > 0) out.scratch.near_first[next[step(i)]++] = uint32_t(i);
+}
+
 TriangleRecord make_record(const RecordMaker& maker, const View& view, const FixedTriangles& triangles, size_t i,
                            const Seeding::Count& count) {
   TriangleRecord record = maker.make(triangles, i);
@@ -254,17 +299,17 @@ void seed(const Layer& layer, const View& view, const ColorMap& map, const Fixed
   out.records.clear();
   out.source.clear();
   follow_exclusions(layer, triangles, exclusions, out);
-  count_seeds(layer, view, triangles, out);
+  count_seeds(layer, view, map, triangles, out);
   if (out.n_max == 0.0f) return;
   lay_out_bins(layer, out);
   const RecordMaker maker(layer, map);
   std::array<uint32_t, k_density_bins> next{};
   for (int i = 0; i < k_density_bins; ++i) next[i] = out.bins[i].first;
-  for (size_t i = 0; i < triangles.size(); ++i) {
-    if (out.counts[i].submitted == 0) continue;
+  sort_by_distance(triangles, out);
+  for (const uint32_t i : out.scratch.near_first) {
     const uint32_t place = next[out.counts[i].bin]++;
     out.records[place] = make_record(maker, view, triangles, i, out.counts[i]);
-    out.source[place] = uint32_t(i);
+    out.source[place] = i;
   }
 }
 

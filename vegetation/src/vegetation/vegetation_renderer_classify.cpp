@@ -13,6 +13,17 @@ namespace {
 
 constexpr GLint k_first_growing_location = 0;
 
+/// Clusters of a draw, about. An instanced draw goes over all of its triangles before it comes to the next cluster, so
+/// that large ones would undo the order from near to far.
+constexpr uint32_t k_clusters_a_draw = 1024;
+
+void draw_bin(const DensityBin& bin) {
+  const uint32_t step = std::max(k_clusters_a_draw / bin.clusters, 1u);
+  for (uint32_t done = 0; done < bin.triangles; done += step)
+    glDrawArraysInstanced(GL_POINTS, GLint(bin.first + done), GLsizei(std::min(step, bin.triangles - done)),
+                          GLsizei(bin.clusters));
+}
+
 }  // namespace
 
 std::vector<StreamPlace> place_species(const Layer& layer) {
@@ -101,10 +112,8 @@ void ClassificationStage::run_pass(int pass, std::span<const DensityBin> bins, S
   glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, passes_[size_t(pass)].id());
   for (size_t i = first; i < last; ++i) queries.begin_stream(places_[i], i);
   glBeginTransformFeedback(GL_POINTS);
-  for (const DensityBin& bin : bins) {
-    if (bin.triangles == 0 || bin.clusters == 0) continue;
-    glDrawArraysInstanced(GL_POINTS, GLint(bin.first), GLsizei(bin.triangles), GLsizei(bin.clusters));
-  }
+  for (const DensityBin& bin : bins)
+    if (bin.clusters > 0) draw_bin(bin);
   glEndTransformFeedback();
   for (size_t i = first; i < last; ++i) queries.end_stream(places_[i]);
   glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, 0);

@@ -39,10 +39,11 @@ struct DensityBin {
 };
 
 class ExclusionIndex;
+class FertileGround;
 
 /// Result of seeding a layer for one view: plain arrays, uploaded as they are.
 struct Seeding {
-  std::vector<TriangleRecord> records;  ///< Sorted by bin, largest count first.
+  std::vector<TriangleRecord> records;  ///< By bin, largest count first; within a bin from near to far.
   std::array<DensityBin, k_density_bins>
       bins{};                    ///< In drawing order: largest count first; empty bins have 0 triangles.
   uint32_t clusters = 0;         ///< Clusters that the bins submit.
@@ -61,6 +62,8 @@ struct Seeding {
   /// Scratch too, and not copied with the rest.
   struct Scratch {
     std::shared_ptr<ExclusionIndex> index;
+    std::shared_ptr<FertileGround> ground;
+    std::vector<uint32_t> near_first;
     Scratch() = default;
     Scratch(const Scratch&) {}
     Scratch& operator=(const Scratch&) { return *this; }
@@ -77,9 +80,9 @@ struct Seeding {
 ///   screen_area  min(density S^falloff, ceiling) S the projected area; the ceiling behind the near plane
 ///   world_area   min(density W (-n . v) / (|v|^2 |v|), ceiling)  W, n: area and normal of the drawn triangle, v from
 ///                the eye to its centre; 0 where it faces away
-/// These two are equations 1 and 2 in plain layers. In others |v| counts as 2 d0 at least, the cosine -n . v / |v| = c as
-/// (c + sqrt(c^2 + 1/4)) / 2, and screen_area takes for S what the second law has, times the squared focal length: the
-/// projected area in the picture's middle, which does not change when the head turns.
+/// These two are equations 1 and 2 in plain layers. In others |v| counts as 2 d0 at least, the cosine -n . v / |v| = c
+/// as (c + sqrt(c^2 + 1/4)) / 2, and screen_area takes for S what the second law has, times the squared focal length:
+/// the projected area in the picture's middle, which does not change when the head turns.
 float seed_limit(const Layer& layer, const View& view, const FixedTriangle& triangle);
 
 /// Upper edges of the 32 geometric bins between n_min (>= 1) and n_max (>= n_min), smallest first:
