@@ -127,7 +127,7 @@ inline Corner Collector::middle(const Corner& a, const Corner& b) const {
   return m;
 }
 
-// What stands on the surface reaches `canopy_m` up from it, the surface lies within `bound` of the triangle. Halfspaces
+// What stands on the surface reaches `canopy_m` up and `spread_m` aside from it, the surface lies within `bound` of the triangle. Halfspaces
 // that hold all of it are taken out of `active`.
 inline bool Collector::culled(const Triangle& t, double bound, unsigned& active) const {
   if (t.cover == Cover::padding || beyond_horizon(t, bound)) return true;
@@ -135,8 +135,9 @@ inline bool Collector::culled(const Triangle& t, double bound, unsigned& active)
     if (!(active >> i & 1)) continue;
     const double a = t.apex.plane[i], b = t.left.plane[i], c = t.right.plane[i];
     const double up = planes_[i].n.z, reach = bound * std::abs(up);
-    if (std::max({a, b, c}) + reach + std::max(up, 0.0) * options_.canopy_m < 0) return true;
-    if (std::min({a, b, c}) - reach + std::min(up, 0.0) * options_.canopy_m >= 0) active &= ~(1u << i);
+    const double spread = glm::length(glm::dvec2(planes_[i].n)) * options_.spread_m;
+    if (std::max({a, b, c}) + reach + std::max(up, 0.0) * options_.canopy_m + spread < 0) return true;
+    if (std::min({a, b, c}) - reach + std::min(up, 0.0) * options_.canopy_m - spread >= 0) active &= ~(1u << i);
   }
   return false;
 }

@@ -95,6 +95,7 @@ void run(GLFWwindow* window, int frames) {
   cut.level = sward::level_for_area(field, layer.triangle_area_m2);
   cut.horizon_m = layer.horizon_m;
   cut.canopy_m = sward::canopy_height(layer);
+  cut.spread_m = sward::canopy_spread(layer);
   sward::FixedTriangles triangles;
   sward::Seeding seeding;
   GLint samples = 1;

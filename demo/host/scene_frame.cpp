@@ -57,6 +57,7 @@ uint32_t SceneFrame::cut_triangles(const View& view) {
     options.level = each.level;
     options.horizon_m = each.layer.horizon_m * float(view.zoom());
     options.canopy_m = canopy_height(each.layer);
+    options.spread_m = canopy_spread(each.layer);
     // What stands upright shows its tips over the edge of ground that has just turned away: leaving that out pops.
     options.skip_back_faces = each.layer.plain;
     options.altitudes = needs_altitudes(each.layer);

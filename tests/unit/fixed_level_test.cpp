@@ -144,6 +144,7 @@ TEST(CoherentFixedLevel, IsTheRebuiltSetFromAnywhere) {
     ASSERT_TRUE(engine.update(view).has_value());
     FixedLevelOptions options{int(6 + random.below(9)), float(random.uniform(20, 900)), float(random.uniform(0, 3)),
                               random.below(3) != 0, 1};
+    if (random.below(2) == 0) options.spread_m = float(random.uniform(0, 60));
     pair.compare(view, options);
     if (HasFatalFailure()) FAIL() << "view " << i;
     total += pair.coherent.size();

@@ -300,6 +300,43 @@ TEST(FixedLevel, EmitsOnlyWhatMayBeSeen) {
 }
 
 // What is in sight at every height that the surface may have is there whatever the mesh is, bit for bit.
+// A triangle belongs to a picture as soon as a point no farther than the spread from one of its own is in it.
+TEST(FixedLevel, SpreadReachesBesideThePicture) {
+  const Terrain terrain = plane_terrain(0, 0, 0);
+  RoamMesh mesh = make_mesh(terrain, 500);
+  const View view = low_view(*terrain.field, 0.4);
+  ASSERT_TRUE(mesh.update(view));
+  FixedLevelOptions options{9, 120, 0, true, 1};
+  std::set<uint64_t> narrow;
+  for (const FixedTriangle& t : listed(collect(mesh, options))) narrow.insert(t.id.bits);
+  options.spread_m = 12;
+  size_t beside = 0;
+  std::set<uint64_t> wide;
+  for (const FixedTriangle& t : listed(collect(mesh, options))) wide.insert(t.id.bits);
+  options.spread_m = 300;
+  const glm::dmat4 clip = view.clip_from_relative();
+  const auto seen = [&](glm::dvec3 p) {
+    const glm::dvec4 at = clip * glm::dvec4(p - view.eye, 1);
+    return at.w > 0.2 && std::abs(at.x) < at.w && std::abs(at.y) < at.w;
+  };
+  for (const FixedTriangle& t : listed(collect(mesh, options))) {
+    // Points around the corners, as far as the spread.
+    bool reaches = false;
+    const glm::dvec3 left = t.apex + glm::dvec3(t.to_left), right = t.apex + glm::dvec3(t.to_right);
+    for (const glm::dvec3 corner : {t.apex, left, right})
+      for (int i = 0; i < 64; ++i)
+        for (const double r : {4.0, 8.0, 11.9})
+          reaches = reaches || seen(corner + r * glm::dvec3(std::cos(i * k_pi / 32), std::sin(i * k_pi / 32), 0));
+    if (!reaches) continue;
+    EXPECT_TRUE(wide.contains(t.id.bits));
+    beside += !narrow.contains(t.id.bits);
+  }
+  EXPECT_GT(beside, 20u);
+  for (const uint64_t id : narrow) EXPECT_TRUE(wide.contains(id));
+  // No more than is needed: the whole ground within the horizon would be several times as much.
+  EXPECT_LT(wide.size(), 2 * narrow.size());
+}
+
 TEST(FixedLevel, SetDoesNotDependOnTheMesh) {
   const Terrain terrain = gentle_terrain();
   const sward::HeightField& field = *terrain.field;

@@ -211,6 +211,23 @@ TEST(ValidateSpecies, SaysTheRange) {
             "layer 'ground': species 0 'fescue': max_distance is 0 but must lie in [0.0001, infinity]");
 }
 
+TEST(Canopy, SpreadsAsFarAsCrownsAndShadows) {
+  Species tree, grass;
+  tree.kind = PlantKind::billboard;
+  tree.height_m = {4.0f, 6.0f};
+  tree.width_m = {10.0f, 20.0f};
+  grass.height_m = {0.2f, 0.5f};
+  Layer layer;
+  layer.species = {grass, tree};
+  layer.shadows = false;
+  EXPECT_FLOAT_EQ(canopy_spread(layer), 10.0f);
+  layer.shadows = true;
+  EXPECT_FLOAT_EQ(canopy_spread(layer), 28.0f);
+  layer.species = {grass};
+  layer.shadows = false;
+  EXPECT_FLOAT_EQ(canopy_spread(layer), 0.5f);
+}
+
 TEST(Canopy, IsTheTallestPlant) {
   Layer layer = good_layer();
   layer.species[0].height_m = {0.2f, 0.7f};

@@ -34,7 +34,7 @@ bool same(const View& a, const View& b) {
 }
 
 bool same(const FixedLevelOptions& a, const FixedLevelOptions& b) {
-  return a.level == b.level && a.horizon_m == b.horizon_m && a.canopy_m == b.canopy_m &&
+  return a.level == b.level && a.horizon_m == b.horizon_m && a.canopy_m == b.canopy_m && a.spread_m == b.spread_m &&
          a.skip_back_faces == b.skip_back_faces && a.altitudes == b.altitudes;
 }
 

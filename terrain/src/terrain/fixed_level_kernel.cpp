@@ -117,7 +117,8 @@ ChunkKernel::ChunkKernel(const FixedLevelWalk& walk) : walk_(walk) {
   canopy_ = walk.options().canopy_m;
   for (size_t i = 0; i < 6; ++i) {
     const glm::vec3 n(walk.planes()[i].n);
-    halfspaces_[i] = {n, std::max(n.z, 0.0f) * canopy_, std::abs(n.z)};
+    const float aside = glm::length(glm::vec2(n)) * walk.options().spread_m;
+    halfspaces_[i] = {n, std::max(n.z, 0.0f) * canopy_ + aside, std::abs(n.z)};
   }
 }
 

@@ -47,7 +47,7 @@ class ChunkKernel {
 
   struct Halfspace {
     glm::vec3 n;
-    float up, reach;  // of the canopy; of a bound
+    float up, reach;  // of the canopy and what spreads from it; of a bound
   };
   const FixedLevelWalk& walk_;
   std::array<Halfspace, 6> halfspaces_;

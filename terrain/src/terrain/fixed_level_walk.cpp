@@ -71,7 +71,7 @@ DrawnTriangle FixedLevelWalk::child(const DrawnTriangle& t, int turn, const Draw
   return {t.id.child(turn), m, turn == 0 ? t.apex : t.right, turn == 0 ? t.left : t.apex, t.cover};
 }
 
-// What stands on the surface reaches `canopy_m` up from it, the surface lies within `bound` of the triangle. Halfspaces
+// What stands on the surface reaches `canopy_m` up and `spread_m` aside from it, the surface lies within `bound` of the triangle. Halfspaces
 // that hold all of it are taken out of `active`.
 bool FixedLevelWalk::culled(const DrawnTriangle& t, double bound, unsigned& active) const {
   if (t.cover == Cover::padding || beyond_horizon(t, bound)) return true;
@@ -79,8 +79,9 @@ bool FixedLevelWalk::culled(const DrawnTriangle& t, double bound, unsigned& acti
     const auto i = size_t(std::countr_zero(rest));
     const double a = t.apex.plane[i], b = t.left.plane[i], c = t.right.plane[i];
     const double up = planes_[i].n.z, reach = bound * std::abs(up);
-    if (std::max({a, b, c}) + reach + std::max(up, 0.0) * options_.canopy_m < 0) return true;
-    if (std::min({a, b, c}) - reach + std::min(up, 0.0) * options_.canopy_m >= 0) active &= ~(1u << i);
+    const double spread = glm::length(glm::dvec2(planes_[i].n)) * options_.spread_m;
+    if (std::max({a, b, c}) + reach + std::max(up, 0.0) * options_.canopy_m + spread < 0) return true;
+    if (std::min({a, b, c}) - reach + std::min(up, 0.0) * options_.canopy_m - spread >= 0) active &= ~(1u << i);
   }
   return false;
 }

@@ -322,4 +322,13 @@ float canopy_height(const Layer& layer) {
   return height;
 }
 
+float canopy_spread(const Layer& layer) {
+  constexpr float k_longest_shadow = 3.0f;  // heights (shaders/common_visible.glsl)
+  const float height = canopy_height(layer);
+  float reach = height;
+  for (const Species& species : layer.species)
+    if (species.kind != PlantKind::none) reach = std::max(reach, 0.5f * species.width_m.max);
+  return layer.shadows ? reach + k_longest_shadow * height : reach;
+}
+
 }  // namespace sward

@@ -167,6 +167,9 @@ struct FixedLevelOptions {
   int threads = 0;  ///< At most so many work on it, the calling one included; 0: one a core. Small sets stay on
                     ///< the calling thread, and the result is the same whatever the number.
   bool altitudes = false;  ///< Fill FixedTriangles::altitude(): three heights of the data a triangle, once.
+  /// How far what grows on it, or its shadow, reaches beyond it on the level, for culling by the frustum: triangles
+  /// beside the picture are emitted whose crowns are in it. >= 0.
+  float spread_m = 0;
 };
 
 /// The level whose triangles' area is nearest to `area_m2` (geometrically), within [0, k_max_level].

@@ -193,5 +193,7 @@ SeasonValues season_values(const Species& species, float season);
 
 /// Highest a plant of the layer can reach above the ground, metres.
 float canopy_height(const Layer& layer);
+/// Farthest that a plant of the layer, or its shadow, reaches from its root on the level, metres.
+float canopy_spread(const Layer& layer);
 
 }  // namespace sward
