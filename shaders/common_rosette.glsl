@@ -13,5 +13,14 @@ vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   leaf.albedo *= relief();
   vec3 normal = normalize(part_normal.xyz);
   normal *= dot(normal, to_eye) < 0.0 ? -1.0 : 1.0;
-  return shade_leaf(species, leaf, normalize(mix(normal, part_ground.xyz, mix(0.2, 0.8, part_ground.w))), to_eye);
+  Canopy canopy = canopy_of(sward_layer.layer, species, dot(part_ground.xyz, frame.sun_direction.xyz));
+  vec2 light = canopy_light(canopy, max(part_point.w, 0.0));
+  leaf.sky *= light.x;
+  leaf.sun *= light.y;
+  vec3 shading = normalize(mix(normal, part_ground.xyz, mix(0.2, 1.0, part_ground.w)));
+  vec3 half_way = normalize(to_eye + frame.sun_direction.xyz);
+  LeafSun sun;
+  sun.through = leaf_through(species.optics, dot(normal, frame.sun_direction.xyz), -dot(to_eye, frame.sun_direction.xyz));
+  sun.shine = leaf_streak(species.optics, part_normal.w) * leaf_gloss(normal, half_way, to_eye) * (1.0 - part_ground.w);
+  return shade_leaf(leaf, sun, shading);
 }
