@@ -12,6 +12,7 @@ struct Canopy {
   float height;  // of the plants' mean, metres
   float sky;     // optical depth from there to the ground, for the sky's light
   float sun;     // the same for the sun's, on its slanted way
+  float open;    // factor on a leaf's light for what grass_leaf takes for granted: neighbours
 };
 
 // Leaves a square metre of ground, by one side, were all of the layer of this species. Laws of area are taken for what
@@ -32,15 +33,16 @@ float leaf_area(LayerParams layer, SpeciesParams species) {
 Canopy canopy_of(LayerParams layer, SpeciesParams species, float facing) {
   float density = 1.0 - exp(-leaf_area(layer, species) * 5.0);
   float depth = -log(max(species.age_tint.w, 0.02)) * density;
+  float open = (1.0 + species.age_tint.w) / (1.0 + exp(-depth));
   // Blades bend: the canopy ends below their mean length.
-  return Canopy(max(0.4 * (species.size.x + species.size.y), 1.0e-4), depth, depth / max(facing, 0.3));
+  return Canopy(max(0.4 * (species.size.x + species.size.y), 1.0e-4), depth, depth / max(facing, 0.3), open);
 }
 
 // Share of the sky's light and of the sun's at a height above the ground (m). Leaf area is densest at the ground, for
-// plants taper and are of many heights: what lies above grows with the square of the depth.
+// plants taper and are of many heights: what lies above grows with the square of the depth. Times Canopy::open.
 vec2 canopy_light(Canopy canopy, float height) {
   float below = clamp(1.0 - height / canopy.height, 0.0, 1.0);
-  return exp(-below * below * vec2(canopy.sky, canopy.sun));
+  return canopy.open * exp(-below * below * vec2(canopy.sky, canopy.sun));
 }
 
 // Light through a leaf against the diffuse (equation 13), wrapped around its edge, strongest where the eye looks at the
@@ -50,7 +52,7 @@ float leaf_through(vec4 optics, float facing, float towards) {
   float behind = (wrap - facing) / (1.0 + wrap);
   if (behind <= 0.0) return 0.0;
   float ahead = max(towards, 0.0);
-  return optics.x * behind * exp(-optics.y / max(behind, 0.05)) * (0.55 + 1.25 * ahead * ahead * ahead);
+  return optics.x * behind * exp(-optics.y / max(behind, 0.05)) * (0.45 + 1.3 * ahead * ahead * ahead);
 }
 
 // What a leaf reflects of the sun without its streak's own fall: little at steep angles, all at grazing ones; broad

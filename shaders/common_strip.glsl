@@ -9,6 +9,7 @@
 #include "common_ground_shadow.glsl"
 #include "common_layer.glsl"
 #include "common_cover.glsl"
+#include "common_plant_image.glsl"
 
 layout(location = 0) uniform int sward_species;
 
@@ -37,6 +38,7 @@ vec3 lit_leaf(SpeciesParams species, Leaf leaf) {
 
 // A leaf of a meadow: far away it becomes the ground.
 vec3 meadow_color(SpeciesParams species, Leaf leaf) {
+  leaf.albedo *= image_detail(vec2(strip_normal.w, strip_point.w));
   vec3 lit = lit_leaf(species, leaf);
   return melt_into_ground(lit, strip_color.rgb, strip_ground, strip_point.xyz);
 }
@@ -44,8 +46,10 @@ vec3 meadow_color(SpeciesParams species, Leaf leaf) {
 // The samples of this fragment that are covered; 0: none, it is to be discarded.
 int strip_mask() {
   float phase = strip_self.z;
-  if (frame.eye_noise.w > 1.0) return coverage_mask(strip_cover.x, phase);
-  return hidden_by_hash(strip_cover.x, phase, strip_point) ? 0 : k_all_samples;
+  float cover = strip_cover.x;
+  if (has_cutout()) cover *= cutout_cover(vec2(strip_normal.w, strip_point.w));
+  if (frame.eye_noise.w > 1.0) return coverage_mask(cover, phase);
+  return hidden_by_hash(cover, phase, strip_point) ? 0 : k_all_samples;
 }
 
 bool strip_is_shadow() { return strip_self.w >= 0.0; }

@@ -7,6 +7,8 @@
 
 layout(isolines, fractional_odd_spacing) in;
 
+layout(location = 1) uniform vec4 sward_images;  // common_plant_image.glsl: a cutout takes the outline's place
+
 layout(location = 0) in vec4 blade_root[];
 layout(location = 1) in vec4 blade_form[];
 layout(location = 2) in vec4 blade_ground[];
@@ -45,7 +47,7 @@ void main() {
 
   vec3 point = root + blade_root[i].w * vec3(azimuth * p.along, p.up);
   line_point = vec4(point, s);
-  line_tangent = vec4(azimuth * sin(p.inclination), cos(p.inclination), form.x * outline(s));
+  line_tangent = vec4(azimuth * sin(p.inclination), cos(p.inclination), form.x * (sward_images.w < 0.0 ? outline(s) : 1.0));
   line_plane = vec4(normal, blade_self[i].w);
   line_root = root;
   line_color = blade_color[i];

@@ -9,6 +9,7 @@
 layout(isolines, fractional_odd_spacing) in;
 
 layout(location = 0) uniform int sward_species;
+layout(location = 1) uniform vec4 sward_images;  // common_plant_image.glsl: a cutout takes the outline's place
 
 layout(location = 0) in vec4 plant_root[];
 layout(location = 1) in vec4 plant_form[];
@@ -59,7 +60,7 @@ void main() {
   float s = gl_TessCoord.x;
   BladePoint p = curve_point(curve, s);
 
-  float half_width = 0.5 * plant_form[plant].x * shoot.width * shown * kind_outline(species, index, s);
+  float half_width = 0.5 * plant_form[plant].x * shoot.width * shown * (sward_images.w < 0.0 ? kind_outline(species, index, s) : 1.0);
   line_point = vec4(foot + plant_root[plant].w * shoot.height * vec3(azimuth * p.along, p.up), s);
   line_tangent = vec4(azimuth * sin(p.inclination), cos(p.inclination), half_width);
   line_plane = vec4(normal, plant_self[plant].w);

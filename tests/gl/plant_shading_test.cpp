@@ -196,9 +196,10 @@ CanopyLight canopy_light(float density, float sun_elevation_deg) {
 TEST_F(PlantShading, DenseCanopiesAreDarkBelowAndLoneBladesAreNot) {
   const CanopyLight dense = canopy_light(60, 60), thin = canopy_light(0.2f, 60);
   EXPECT_NEAR(dense.root.x, 0.35, 0.08);  // Species::root_shade
-  EXPECT_GT(thin.root.x, 0.95);
-  EXPECT_GT(dense.tip.x, 0.98);
-  EXPECT_GT(dense.tip.y, 0.98);
+  EXPECT_GT(thin.root.x, 0.95 * thin.tip.x);
+  EXPECT_LT(thin.tip.x, 0.8);  // leaves are not as bright as those that hide others
+  EXPECT_GT(dense.tip.x, 0.95);
+  EXPECT_GT(dense.tip.y, 0.95);
   // A low sun shines further through the neighbours; the sky's light does not change.
   const CanopyLight evening = canopy_light(60, 15);
   EXPECT_LT(evening.root.y, 0.5 * dense.root.y);
@@ -245,6 +246,125 @@ TEST_F(PlantShading, FarPlantsDoNotShimmer) {
   RecordProperty("bare", std::to_string(bare));
   EXPECT_LT(faded, 0.7 * bare) << faded << " of 255 against " << bare;
   EXPECT_LT(faded, 6.5);
+}
+
+// ---- Images on plants.
+
+std::shared_ptr<const PlantImage> image_of(int side, const std::function<int(double across, double along)>& grey) {
+  std::vector<uint8_t> greys;
+  for (int row = 0; row < side; ++row)
+    for (int column = 0; column < side; ++column)
+      greys.push_back(uint8_t(grey((column + 0.5) / side * 2 - 1, 1 - (row + 0.5) / side)));
+  auto image = PlantImage::create(side, side, greys);
+  EXPECT_TRUE(image) << image.error().message;
+  return *image;
+}
+
+/// Broad upright blades before the eye.
+Layer broad(PlantKind kind) {
+  Layer layer = grass(3);
+  layer.species[0].kind = kind;
+  layer.species[0].width_m = {0.3f, 0.3f};
+  layer.species[0].stiffness = {1, 1};
+  layer.species[0].lean = 0;
+  layer.species[0].age_share = 0;
+  return layer;
+}
+
+Picture picture_of(const Layer& layer, float sun_azimuth_deg = -60) {
+  Patch patch(layer, plain_map(k_side, 8, k_green));
+  patch.samples = std::min(4, host::RenderTarget::max_samples());
+  patch.lighting = gl::Lighting::clear_day(sun_azimuth_deg * k_degree, 40 * k_degree);
+  return render(patch, low_view());
+}
+
+size_t lit_pixels(const Picture& picture) {
+  size_t count = 0;
+  picture.each_lit([&](glm::vec3) { ++count; });
+  return count;
+}
+
+constexpr PlantKind k_outlined[] = {PlantKind::blade, PlantKind::tuft, PlantKind::leaf, PlantKind::fern,
+                                    PlantKind::billboard};
+
+TEST_F(PlantShading, DetailChangesColoursAndHalfGreyDoesNot) {
+  for (const PlantKind kind : k_outlined) {
+    Layer layer = broad(kind);
+    const Picture plain = picture_of(layer);
+    layer.species[0].detail_strength = 0.8f;
+    layer.species[0].detail = image_of(64, [](double, double) { return 128; });
+    const double light = mean_light(plain);
+    EXPECT_NEAR(mean_light(picture_of(layer)) / light, 1, 0.01) << int(kind);
+    layer.species[0].detail = image_of(64, [](double, double) { return 0; });
+    // Trunks, and light that mirrors, have none.
+    EXPECT_LT(mean_light(picture_of(layer)), 0.7 * light) << int(kind);
+  }
+}
+
+TEST_F(PlantShading, CutoutsTakeTheOutlinesPlace) {
+  for (const PlantKind kind : k_outlined) {
+    Layer layer = broad(kind);
+    if (kind == PlantKind::billboard) layer.species[0].trunk_share = 0;
+    // Rosettes of many leaves must not fill the picture.
+    if (kind == PlantKind::leaf || kind == PlantKind::fern) layer.density = 0.2f;
+    layer.species[0].cutout = image_of(64, [](double, double) { return 255; });
+    const size_t whole = lit_pixels(picture_of(layer));
+    layer.species[0].cutout = image_of(64, [](double across, double) { return std::abs(across) < 0.25 ? 255 : 0; });
+    const size_t quarter = lit_pixels(picture_of(layer));
+    EXPECT_GT(whole, 500u) << int(kind);
+    EXPECT_GT(quarter, whole / 8) << int(kind);
+    // Plants that overlap hide less of each other.
+    EXPECT_LT(double(quarter), 0.7 * double(whole)) << int(kind);
+  }
+}
+
+TEST_F(PlantShading, RowZeroOfACutoutIsTheTip) {
+  Layer layer = broad(PlantKind::blade);
+  const auto height = [&](bool tip) {
+    layer.species[0].cutout = image_of(64, [=](double, double along) { return (along > 0.5) == tip ? 255 : 0; });
+    const Picture picture = picture_of(layer);
+    double sum = 0, count = 0;
+    for (int y = 0; y < k_size.y; ++y)
+      for (int x = 0; x < k_size.x; ++x)
+        if (picture.at(x, y) != glm::vec3(0)) sum += k_size.y - y, ++count;
+    return sum / std::max(count, 1.0);
+  };
+  EXPECT_GT(height(true), height(false) + 5);
+}
+
+TEST_F(PlantShading, EdgesOfEnlargedCutoutsAreAPixelWide) {
+  // Eight texels over some hundred pixels: the image's own slope from 0 to 255 is a dozen pixels wide.
+  Layer layer = broad(PlantKind::blade);
+  layer.density = 1.0f / 256;
+  layer.species[0].height_m = {2, 2};
+  layer.species[0].width_m = {1.6f, 1.6f};
+  layer.species[0].cutout = image_of(8, [](double across, double) { return std::abs(across) < 0.5 ? 255 : 0; });
+  Patch patch(layer, plain_map(k_side, 8, k_green));
+  patch.samples = std::min(4, host::RenderTarget::max_samples());
+  patch.level = 0;
+  render(patch, low_view());
+  const std::vector<Plant> plants = patch.plants_of_gpu();
+  ASSERT_FALSE(plants.empty());
+  const Plant& plant = plants.front();
+  const glm::dvec3 eye = plant.position + 2.5 * glm::dvec3(std::cos(plant.azimuth), std::sin(plant.azimuth), 0.3);
+  const glm::dvec3 to = plant.position + glm::dvec3(0, 0, 0.75) - eye;
+  const View view = View::look(eye, std::atan2(to.y, to.x), 0, 0.9, k_size, 0.05, 1000);
+  const Picture picture = render(patch, view);
+  size_t rows = 0, partial = 0, full = 0;
+  for (int y = 60; y < 100; ++y) {
+    double most = 0;
+    for (int x = 0; x < k_size.x; ++x) most = std::max(most, linear_light(picture.at(x, y)));
+    if (most <= 0) continue;
+    ++rows;
+    for (int x = 0; x < k_size.x; ++x) {
+      const double light = linear_light(picture.at(x, y));
+      partial += light > 0.04 * most && light < 0.8 * most;
+      full += light >= 0.8 * most;
+    }
+  }
+  EXPECT_GT(rows, 20u);
+  EXPECT_GT(full, rows * 20);
+  EXPECT_LT(partial, rows * 3);  // two edges
 }
 
 // ---- Shadows.
