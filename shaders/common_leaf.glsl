@@ -56,8 +56,8 @@ vec3 shade_leaf(Leaf leaf, LeafSun light, vec3 normal) {
   return ambient(normal) * leaf.albedo * leaf.sky + sun_light() * leaf.sun * direct;
 }
 
-// The same for a leaf without a way of its own, or asked fragment by fragment: `own` is its normal, `shading` that mixed
-// with the ground's; both unit, on the viewer's side.
+// The same for a leaf without a way of its own, which has a spot instead of a streak: `own` is its normal, `shading`
+// that mixed with the ground's; both unit, on the viewer's side.
 vec3 shade_leaf(SpeciesParams species, Leaf leaf, vec3 own, vec3 shading, vec3 to_eye) {
   vec3 sun = frame.sun_direction.xyz;
   vec3 half_way = normalize(to_eye + sun);

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 
-// Images on plants, where a species has them: detail on its colour, a cutout of its outline. Places are -1..1 across the
-// plant, 0..1 from root to tip. GLSL only, fragment stage.
+// Images on plants, where a species has them: detail on its colour, a cutout of its outline. Places are -1..1 across
+// the plant, 0..1 from root to tip. GLSL only, fragment stage.
 layout(location = 1) uniform vec4 sward_images;  // detail's number or -1, strength, repeats; cutout's number or -1
 
 layout(binding = SWARD_BINDING_PLANT_IMAGES) uniform sampler2DArray sward_plant_images;

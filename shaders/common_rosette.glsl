@@ -19,9 +19,10 @@ vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   leaf.sky *= light.x;
   leaf.sun *= light.y;
   vec3 shading = normalize(mix(normal, part_ground.xyz, mix(0.2, 1.0, part_ground.w)));
-  vec3 half_way = normalize(to_eye + frame.sun_direction.xyz);
-  LeafSun sun;
-  sun.through = leaf_through(species.optics, dot(normal, frame.sun_direction.xyz), -dot(to_eye, frame.sun_direction.xyz));
-  sun.shine = leaf_streak(species.optics, part_normal.w) * leaf_gloss(normal, half_way, to_eye) * (1.0 - part_ground.w);
-  return shade_leaf(leaf, sun, shading);
+  vec3 sun = frame.sun_direction.xyz;
+  float gloss = leaf_gloss(normal, normalize(to_eye + sun), to_eye) * (1.0 - part_ground.w);
+  LeafSun direct;
+  direct.through = leaf_through(species.optics, dot(normal, sun), -dot(to_eye, sun));
+  direct.shine = leaf_streak(species.optics, part_normal.w) * gloss;
+  return shade_leaf(leaf, direct, shading);
 }

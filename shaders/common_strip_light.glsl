@@ -13,9 +13,9 @@ float strip_distance(float melting, float cover) {
   return max(melting, 0.75 - 0.75 * smoothstep(0.06, 0.45, cover));
 }
 
-// Light of sky and sun among neighbours, `near` being canopy_light(). Leaves are brighter than the ground's colour, which
-// shows them and the shade between them together (grass_leaf), and stand aslant to the light. With the ground's normal
-// that is taken back, so that far plants have the ground's light; and they have one light from root to tip.
+// Light of sky and sun among neighbours, `near` being canopy_light(). Leaves are brighter than the ground's colour,
+// which shows them and the shade between them together (grass_leaf), and stand aslant to the light. With the ground's
+// normal that is taken back, so that far plants have the ground's light; and they have one light from root to tip.
 vec2 field_light(SpeciesParams species, vec2 near, float far) {
   return mix(near, vec2(0.36 * (1.0 + species.age_tint.w)), far);
 }

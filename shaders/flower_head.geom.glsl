@@ -82,8 +82,7 @@ Head make_head() {
 vec3 head_point(Head head, vec3 p) {
   vec3 own = head.radius * (head.right * p.x + head.ahead * p.y + head.axis * p.z);
   if (head.shadow >= 0.0) {
-    ShadowPlane ground =
-        shadow_plane(petal_root[0], petal_plane[0].xyz, petal_plane[0].w, head.species.size.y);
+    ShadowPlane ground = shadow_plane(petal_root[0], petal_plane[0].xyz, petal_plane[0].w, head.species.size.y);
     return lifted(ground, cast_shadow(ground, head.middle + own));
   }
   // Along the ellipse's axes.
@@ -99,8 +98,7 @@ void light_petal(Head head, vec3 normal, vec3 position) {
   vec3 plane = petal_plane[0].xyz;
   float facing = dot(plane, frame.sun_direction.xyz);
   Canopy canopy = canopy_of(sward_layer.layer, head.species, facing);
-  StripLight light =
-      strip_light_at(head.species.optics, normal, vec3(0.0), position, plane, 0.0);
+  StripLight light = strip_light_at(head.species.optics, normal, vec3(0.0), position, plane, 0.0);
   vec3 half_way = normalize(normalize(-position) + frame.sun_direction.xyz + vec3(0.0, 0.0, 1.0e-4));
   float up = dot(normalize(normal), half_way);
   strip_normal.xyz = light.normal;
@@ -202,6 +200,7 @@ void main() {
     return;
   }
   // Shadows of heads too small to see are left to those of the stems.
-  head.shadow = ground_shadow_strength(sward_layer.layer, petal_map[0].w, petal_plane[0].xyz) * smoothstep(2.0, 5.0, petal_color[0].w);
+  head.shadow = ground_shadow_strength(sward_layer.layer, petal_map[0].w, petal_plane[0].xyz) *
+                smoothstep(2.0, 5.0, petal_color[0].w);
   if (head.shadow > 0.01) emit_part(head);
 }

@@ -124,7 +124,8 @@ void emit_blade(Plant plant) {
 }
 
 void emit_shadow(Plant plant) {
-  ShadowPlane ground = shadow_plane(plant.root, plant.plane, line_plane[0].w, sward_layer.species[sward_species].size.y);
+  float reach = sward_layer.species[sward_species].size.y;
+  ShadowPlane ground = shadow_plane(plant.root, plant.plane, line_plane[0].w, reach);
   vec3 ends[2];
   for (int i = 0; i < 2; ++i) ends[i] = cast_shadow(ground, line_point[i].xyz);
   vec3 way = ends[1] - ends[0];
