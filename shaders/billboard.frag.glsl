@@ -50,6 +50,7 @@ float object_cover(bool shadow) {
   vec2 at = part_mask.xy;
   float radius = length(at);
   if (shadow) return 0.85 * (1.0 - smoothstep(0.35, 1.0, radius));
+  if (has_cutout()) return cutout_cover(vec2(at.x, 0.5 + 0.5 * at.y));
   // Leaves, sprays of leaves, and their mean, each while it is larger than a pixel.
   float leaves = clamp((-1.0 - part_self.w) / k_leaf_m, 4.0, 18.0);
   float footprint = max(part_footprint.x, part_footprint.y);
@@ -89,6 +90,7 @@ vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   Leaf leaf;
   leaf.albedo = part_color.rgb * mix(species.tint.rgb, species.age_tint.rgb, age) * tree;
   leaf.albedo *= (0.78 + 0.44 * number) * (1.0 - 0.15 * found_leaf.across.x);
+  leaf.albedo *= image_detail(vec2(part_mask.x, 0.5 + 0.5 * part_mask.y));
   float open = part_normal.w;
   // The crown's own shadow: the side away from the sun, and what lies within.
   float sunny = smoothstep(-0.75, 0.65, dot(normal, frame.sun_direction.xyz));
@@ -96,5 +98,5 @@ vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   leaf.sun = sunny * mix(species.age_tint.w, 1.0, open * open);
   vec2 tilt = 1.2 * (vec2(fract(number * 53.0), fract(number * 97.0)) - 0.5);
   vec3 own = normalize(normal + vec3(tilt, 0.3 * (number - 0.5)));
-  return shade_leaf(species, leaf, own, to_eye);
+  return shade_leaf(species, leaf, own, normalize(mix(own, part_ground.xyz, 0.8 * part_ground.w)), to_eye);
 }

@@ -148,7 +148,8 @@ void emit_cluster_shadow(Tree t, uint i, float strength) {
   if (c.radius.x <= 0.0) return;
   Object o = t.object;
   vec3 centre = t.centre + c.place * t.half_size;
-  vec3 hit = o.root + shadow_projection(o.plane) * (centre - o.root);
+  ShadowPlane plane = object_shadow_plane(o);
+  vec3 hit = cast_shadow(plane, centre);
   GroundPatch g = ground_at(o, hit.xy);
   vec3 sun = frame.sun_direction.xyz;
   float facing = max(dot(g.normal, sun), 0.08);
@@ -160,18 +161,19 @@ void emit_cluster_shadow(Tree t, uint i, float strength) {
   for (int corner = 0; corner < 4; ++corner) {
     vec2 at = vec2(corner & 1, corner >> 1) * 2.0 - 1.0;
     Part part = Part(at, t.cover, float(i), strength, 1.0);
-    vec3 point = g.point + g.normal * 0.01 + across * (at.x * radius) + along * (at.y * stretched);
-    emit(o, part, point * (1.0 - k_shadow_lift), g.normal);
+    vec3 level = g.point + across * (at.x * radius) + along * (at.y * stretched);
+    GroundPatch below = ground_at(o, level.xy);
+    emit(o, part, lifted(plane, below.point), g.normal);
   }
   EndPrimitive();
 }
 
 void emit_trunk_shadow(Tree t, float strength) {
   Object o = t.object;
-  mat3 project = shadow_projection(o.plane);
+  ShadowPlane ground = object_shadow_plane(o);
   for (int i = 0; i < 2; ++i) {
     float up = i == 0 ? 0.0 : 0.5 * (1.0 + t.species.own_a.x);
-    vec3 foot = cast_on_plane(o, project, trunk_at(o, up));
+    vec3 foot = cast_on_ground(ground, trunk_at(o, up));
     vec3 way = cross(o.plane, frame.sun_direction.xyz);
     vec3 side = way / max(length(way), 1.0e-4) * trunk_half_width(t, up);
     for (int edge = -1; edge < 2; edge += 2) {

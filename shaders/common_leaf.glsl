@@ -1,27 +1,25 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 
-// Light on and through leaves (Papavasiliou 2015, section 2.4, equations 13 and 14), darkened towards the root by the
-// plants around (Reeves, Blau 1985). GLSL only.
+// Light on and through leaves (Papavasiliou 2015, section 2.4, equations 13 and 14). GLSL only.
+#include "common_canopy.glsl"
 #include "common_layer.glsl"
 #include "common_light.glsl"
 
 struct Leaf {
   vec3 albedo;
-  vec3 sky;   // share of the sky's light that comes down to here
+  vec3 sky;   // share of the sky's light that comes down to here, by channel: it has met other leaves on its way
   float sun;  // share of the sun's
 };
 
-// Light that comes down between the neighbours to relative height `s`: nearly all at the tips, root_shade at the root.
-float canopy_light(float root_shade, float s) { return mix(root_shade, 1.0, smoothstep(0.0, 0.9, s)); }
-
-// Equation 13 without the light's colour.
-float transmitted(float facing, float attenuation) {
-  return facing < 0.0 ? -facing * exp(attenuation / min(facing, -0.05)) : 0.0;
-}
+// The sun's light on a leaf beyond the diffuse.
+struct LeafSun {
+  float through;  // leaf_through()
+  float shine;    // leaf_streak() times leaf_gloss()
+};
 
 // A blade at arc length `s`, `across` -1..1: the ground's colour, tinted towards the tip, older ones drier; one blade
-// differs from the next.
+// differs from the next. In the open: the canopy's shade is the caller's.
 Leaf grass_leaf(SpeciesParams species, vec4 ground_and_age, float s, float across, float phase) {
   float age = ground_and_age.w;
   float root_shade = species.age_tint.w;
@@ -36,8 +34,8 @@ Leaf grass_leaf(SpeciesParams species, vec4 ground_and_age, float s, float acros
   leaf.albedo *= 2.7 / (1.0 + root_shade);
   // What comes down has met other leaves on its way.
   vec3 filtered = leaf.albedo / max(max(leaf.albedo.r, leaf.albedo.g), 1.0e-4);
-  leaf.sky = canopy_light(root_shade, s) * mix(vec3(1.0), filtered, 0.5 - 0.35 * s);
-  leaf.sun = canopy_light(root_shade * root_shade, s);
+  leaf.sky = mix(vec3(1.0), filtered, 0.5 - 0.35 * s);
+  leaf.sun = 1.0;
   return leaf;
 }
 
@@ -48,15 +46,24 @@ vec3 melt_into_ground(vec3 lit, vec3 albedo, vec4 ground, vec3 point) {
   return apply_haze(mix(lit, around, ground.w), point);
 }
 
-// Equation 14; `normal` and `to_eye` are unit vectors, the normal on the viewer's side.
-vec3 shade_leaf(SpeciesParams species, Leaf leaf, vec3 normal, vec3 to_eye) {
+// Equation 14; `normal`: unit, on the viewer's side.
+vec3 shade_leaf(Leaf leaf, LeafSun light, vec3 normal) {
+  float facing = max(dot(normal, frame.sun_direction.xyz), 0.0);
+  // Light that has passed a leaf is of its own colour once more, and yellower.
+  float most = max(max(leaf.albedo.r, leaf.albedo.g), 1.0e-4);
+  vec3 through_tint = leaf.albedo * (leaf.albedo / most * vec3(1.15, 1.1, 0.75) + 0.1);
+  vec3 direct = leaf.albedo * facing + through_tint * light.through + vec3(light.shine);
+  return ambient(normal) * leaf.albedo * leaf.sky + sun_light() * leaf.sun * direct;
+}
+
+// The same for a leaf without a way of its own, which has a spot instead of a streak: `own` is its normal, `shading`
+// that mixed with the ground's; both unit, on the viewer's side.
+vec3 shade_leaf(SpeciesParams species, Leaf leaf, vec3 own, vec3 shading, vec3 to_eye) {
   vec3 sun = frame.sun_direction.xyz;
-  float facing = dot(normal, sun);
-  float through = species.optics.x * transmitted(facing, species.optics.y);
-  // Light that has passed a leaf is yellower.
-  vec3 through_tint = leaf.albedo * vec3(1.25, 1.2, 0.6);
-  vec3 diffuse = leaf.albedo * max(facing, 0.0) + through_tint * through;
-  float gloss = pow(max(dot(to_eye, reflect(-sun, normal)), 0.0), species.optics.w);
-  float shine = facing > 0.0 ? species.optics.z * gloss : 0.0;
-  return ambient(normal) * leaf.albedo * leaf.sky + sun_light() * leaf.sun * (diffuse + vec3(shine));
+  vec3 half_way = normalize(to_eye + sun);
+  float aside = 1.0 - min(dot(own, half_way) * dot(own, half_way), 1.0);
+  LeafSun light;
+  light.through = leaf_through(species.optics, dot(own, sun), -dot(to_eye, sun));
+  light.shine = leaf_streak(species.optics, sqrt(aside)) * leaf_gloss(own, half_way, to_eye);
+  return shade_leaf(leaf, light, shading);
 }

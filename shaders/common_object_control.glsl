@@ -5,6 +5,7 @@
 // seed, those that can be seen become isolines. The kind's file defines the two functions declared here. GLSL only.
 #include "common_grow.glsl"
 #include "common_ground.glsl"
+#include "common_shadow_bend.glsl"
 #include "common_visible.glsl"
 
 layout(vertices = SWARD_CLUSTER_SIZE) out;
@@ -15,7 +16,7 @@ layout(location = 0) out vec4 object_root[];    // root relative to the eye, hei
 layout(location = 1) out vec4 object_form[];    // width as drawn, stiffness, azimuth, lean
 layout(location = 2) out vec4 object_ground[];  // surface normal x, y; base map coordinates
 layout(location = 3) out vec4 object_color[];   // ground at the root, linear; age
-layout(location = 4) out vec4 object_self[];    // distance, phase, parts, unused
+layout(location = 4) out vec4 object_self[];    // distance, phase, parts, bend (shadow_bend)
 layout(location = 5) patch out uvec2 object_patch;  // record of the triangle; unused
 layout(location = 6) patch out uint object_slots[(SWARD_CLUSTER_SIZE + 3) / 4];  // invocation of each line, 8 bits each
 
@@ -32,14 +33,14 @@ float object_parts(SpeciesParams species, float distance, float size_px);
 
 float size_px(float size, float distance) { return size * frame.focal.y / max(distance, 1.0e-3); }
 
-void write_object(Seedling s, vec2 size) {
+void write_object(Triangle triangle, Seedling s, vec2 size) {
   SpeciesParams species = sward_layer.species[sward_species];
   object_root[gl_InvocationID] = vec4(s.root, size.x);
   object_form[gl_InvocationID] = vec4(size.y, s.traits.stiffness, s.traits.azimuth, s.traits.lean);
   object_ground[gl_InvocationID] = vec4(s.ground_normal.xy, s.map_uv);
   object_color[gl_InvocationID] = vec4(ground_albedo(sward_base_map, s.map_uv, s.root, s.ground_normal), s.traits.age);
   float parts = object_parts(species, s.distance, size_px(max(size.x, size.y), s.distance));
-  object_self[gl_InvocationID] = vec4(s.distance, s.traits.phase, parts, 0.0);
+  object_self[gl_InvocationID] = vec4(s.distance, s.traits.phase, parts, shadow_bend(triangle, s, size.x));
 }
 
 // Whether an object of the species' largest size could be seen at all: asked before the ground is.
@@ -60,7 +61,7 @@ void grow_line(FertileCluster fertile) {
   s = grow_seed(fertile, triangle, s);
   if (s.presence.fade <= 0.0) return;
   // Objects keep their proportions while they grow in.
-  write_object(s, vec2(s.traits.height, s.traits.width) * widening * s.presence.fade);
+  write_object(triangle, s, vec2(s.traits.height, s.traits.width) * widening * s.presence.fade);
 }
 
 // Lines for what is drawn; the object that wants most parts decides for all.

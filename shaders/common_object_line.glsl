@@ -18,7 +18,7 @@ layout(location = 1) out vec4 line_form;   // width (m), stiffness, azimuth, lea
 layout(location = 2) out vec4 line_plane;  // of the ground: unit normal; place along the line, 0..1
 layout(location = 3) out vec4 line_color;  // ground at the root; age
 layout(location = 4) out vec4 line_self;   // distance, phase, own parts, parts drawn
-layout(location = 5) out vec4 line_map;    // base map coordinates below the eye; melting into the ground; unused
+layout(location = 5) out vec4 line_map;    // base map coordinates below the eye; melting; bend (shadow_bend)
 layout(location = 6) flat out uint line_record;
 
 void hand_on() {
@@ -34,6 +34,7 @@ void hand_on() {
   line_plane = vec4(normal, gl_TessCoord.x);
   line_color = object_color[i];
   line_self = vec4(object_self[i].xyz, gl_TessLevelOuter[1]);
-  line_map = vec4(ground.zw - root.xy * uv_per_m, smoothstep(0.02, 0.6, distance / sward_layer.layer.reach.x), 0.0);
+  line_map = vec4(ground.zw - root.xy * uv_per_m, smoothstep(0.02, 0.6, distance / sward_layer.layer.reach.x),
+                  object_self[i].w);
   line_record = object_patch.x;
 }

@@ -6,6 +6,7 @@
 #include "common_leaf.glsl"
 #include "common_ground_shadow.glsl"
 #include "common_cover.glsl"
+#include "common_plant_image.glsl"
 
 layout(location = 0) uniform int sward_species;
 

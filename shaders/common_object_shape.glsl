@@ -13,7 +13,7 @@ layout(location = 1) in vec4 line_form[];   // width (m), stiffness, azimuth, le
 layout(location = 2) in vec4 line_plane[];  // of the ground: unit normal; place along the line, 0..1
 layout(location = 3) in vec4 line_color[];  // ground at the root; age
 layout(location = 4) in vec4 line_self[];   // distance, phase, own parts, parts drawn
-layout(location = 5) in vec4 line_map[];    // base map coordinates below the eye; melting; unused
+layout(location = 5) in vec4 line_map[];    // base map coordinates below the eye; melting; bend (shadow_bend)
 layout(location = 6) flat in uint line_record[];
 
 layout(location = 0) out vec4 part_point;        // relative to the eye; height above the ground's plane (m)
@@ -90,13 +90,9 @@ void emit(Object o, Part part, vec3 position, vec3 normal) {
   EmitVertex();
 }
 
-// Ground that faces away from the sun, or hardly to it, is dark already: strength 0.
-float object_shadow_strength(Object o) {
-  if (dot(o.plane, frame.sun_direction.xyz) < 0.02) return 0.0;
-  return shadow_strength(sward_layer.layer, o.distance);
-}
+float object_shadow_strength(Object o) { return ground_shadow_strength(sward_layer.layer, o.distance, o.plane); }
 
-// Where a point's shadow falls on the plane through the root, a little before it.
-vec3 cast_on_plane(Object o, mat3 project, vec3 point) {
-  return (o.root + project * (point - o.root)) * (1.0 - k_shadow_lift);
-}
+ShadowPlane object_shadow_plane(Object o) { return shadow_plane(o.root, o.plane, line_map[0].w, o.height); }
+
+// Where a point's shadow falls, a little before the ground.
+vec3 cast_on_ground(ShadowPlane ground, vec3 point) { return lifted(ground, cast_shadow(ground, point)); }

@@ -10,8 +10,19 @@ float relief();
 vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   float own = fract(part_self.z * 13.7 + part_mask.w * 0.381966);
   Leaf leaf = grass_leaf(species, part_color, part_mask.y, part_mask.x, own);
-  leaf.albedo *= relief();
+  leaf.albedo *= has_cutout() ? 1.0 : relief();
+  leaf.albedo *= image_detail(part_mask.xy);
   vec3 normal = normalize(part_normal.xyz);
   normal *= dot(normal, to_eye) < 0.0 ? -1.0 : 1.0;
-  return shade_leaf(species, leaf, normalize(mix(normal, part_ground.xyz, mix(0.2, 0.8, part_ground.w))), to_eye);
+  Canopy canopy = canopy_of(sward_layer.layer, species, dot(part_ground.xyz, frame.sun_direction.xyz));
+  vec2 light = canopy_light(canopy, max(part_point.w, 0.0));
+  leaf.sky *= light.x;
+  leaf.sun *= light.y;
+  vec3 shading = normalize(mix(normal, part_ground.xyz, mix(0.2, 1.0, part_ground.w)));
+  vec3 sun = frame.sun_direction.xyz;
+  float gloss = leaf_gloss(normal, normalize(to_eye + sun), to_eye) * (1.0 - part_ground.w);
+  LeafSun direct;
+  direct.through = leaf_through(species.optics, dot(normal, sun), -dot(to_eye, sun));
+  direct.shine = leaf_streak(species.optics, part_normal.w) * gloss;
+  return shade_leaf(leaf, direct, shading);
 }

@@ -9,44 +9,47 @@
 #include "common_ground_shadow.glsl"
 #include "common_layer.glsl"
 #include "common_cover.glsl"
+#include "common_plant_image.glsl"
 
 layout(location = 0) uniform int sward_species;
 
 layout(location = 0) in vec4 strip_point;        // relative to the eye; arc length
-layout(location = 1) in vec4 strip_normal;       // towards the viewer, rounded; -1..1 across
-layout(location = 2) in vec2 strip_cover;        // share of the strip that the plant covers; height above the ground
+layout(location = 1) in vec4 strip_normal;       // towards the viewer, rounded, the ground's share in it; -1..1 across
+layout(location = 2) in vec2 strip_cover;        // share of the strip that the plant covers; gloss (leaf_gloss)
 layout(location = 3) flat in vec4 strip_color;   // ground at the root; age
 layout(location = 4) flat in vec4 strip_ground;  // normal; melting
 layout(location = 5) flat in vec4 strip_self;    // base map coordinates below the eye; phase; shadow's strength, or
                                                  // -1 - shoot
+layout(location = 6) in vec4 strip_light;        // canopy_light: sky, sun; leaf_through; cosine for leaf_streak
 
 layout(location = 0) out vec4 color;
-
-// How much of the ground's normal even near blades take on.
-const float k_field_share = 0.3;
 
 vec3 shadow_color(float strength) {
   return darkened_ground(strip_point.xyz, strip_self.xy, strip_ground.xyz, 1.0, mix(1.0, k_shadow_light, strength));
 }
 
-// A leaf's light; `field`: how much of the ground's normal it takes on.
-vec3 lit_leaf(SpeciesParams species, Leaf leaf, float field) {
-  vec3 normal = normalize(mix(normalize(strip_normal.xyz), strip_ground.xyz, field));
-  return shade_leaf(species, leaf, normal, normalize(-strip_point.xyz));
+// A leaf's light, in the shade of its neighbours.
+vec3 lit_leaf(SpeciesParams species, Leaf leaf) {
+  leaf.sky *= strip_light.x;
+  leaf.sun *= strip_light.y;
+  LeafSun light = LeafSun(strip_light.z, leaf_streak(species.optics, strip_light.w) * strip_cover.y);
+  return shade_leaf(leaf, light, normalize(strip_normal.xyz));
 }
 
-// A leaf of a meadow: it takes light from above as a whole, the more so the less single blades can be told apart, and
-// far away becomes the ground.
+// A leaf of a meadow: far away it becomes the ground.
 vec3 meadow_color(SpeciesParams species, Leaf leaf) {
-  vec3 lit = lit_leaf(species, leaf, mix(k_field_share, 0.8, strip_ground.w));
+  leaf.albedo *= image_detail(vec2(strip_normal.w, strip_point.w));
+  vec3 lit = lit_leaf(species, leaf);
   return melt_into_ground(lit, strip_color.rgb, strip_ground, strip_point.xyz);
 }
 
 // The samples of this fragment that are covered; 0: none, it is to be discarded.
 int strip_mask() {
   float phase = strip_self.z;
-  if (frame.eye_noise.w > 1.0) return coverage_mask(strip_cover.x, phase);
-  return hidden_by_hash(strip_cover.x, phase, strip_point) ? 0 : k_all_samples;
+  float cover = strip_cover.x;
+  if (has_cutout()) cover *= cutout_cover(vec2(strip_normal.w, strip_point.w));
+  if (frame.eye_noise.w > 1.0) return coverage_mask(cover, phase);
+  return hidden_by_hash(cover, phase, strip_point) ? 0 : k_all_samples;
 }
 
 bool strip_is_shadow() { return strip_self.w >= 0.0; }

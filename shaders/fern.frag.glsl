@@ -16,6 +16,7 @@ float outline(float s) {
 float across_leaflet() { return 2.0 * fract(part_mask.y * k_leaflets - abs(part_mask.x) * 2.2) - 1.0; }
 
 float object_cover(bool shadow) {
+  if (has_cutout()) return cutout_cover(part_mask.xy);
   float x = abs(part_mask.x), s = part_mask.y;
   float width = max(outline(s), 1.0e-3);
   float soft_x = max(part_footprint.x, 1.0e-3), soft_s = max(part_footprint.y * k_leaflets, 1.0e-3);

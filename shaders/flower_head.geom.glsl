@@ -8,6 +8,7 @@
 #include "common_visible.glsl"
 #include "common_shadow_projection.glsl"
 #include "common_head.glsl"
+#include "common_strip_light.glsl"
 
 layout(lines, invocations = SWARD_GROWTH_INVOCATIONS) in;
 layout(triangle_strip, max_vertices = 14) out;
@@ -16,17 +17,19 @@ layout(location = 0) uniform int sward_species;
 
 layout(location = 0) in vec4 petal_place[];   // middle relative to the eye, radius as drawn
 layout(location = 1) in vec4 petal_axis[];    // where the head looks, unit; its turn about that (rad)
-layout(location = 2) in vec4 petal_plane[];   // of the ground: unit normal; offset
+layout(location = 2) in vec4 petal_plane[];   // of the ground: unit normal; its bend (shadow_bend)
 layout(location = 3) in vec4 petal_color[];   // linear; pixels across the head
 layout(location = 4) in vec4 petal_map[];     // base map coordinates below the eye; phase; distance
 layout(location = 5) in vec2 petal_number[];  // of the segment's end; segments of the head
+layout(location = 6) in vec3 petal_root[];    // of the plant, relative to the eye
 
 layout(location = 0) out vec4 strip_point;        // relative to the eye; radius
 layout(location = 1) out vec4 strip_normal;       // towards the viewer; -1..1 across
-layout(location = 2) out vec2 strip_cover;        // share of the strip that the petal covers; height above the ground
+layout(location = 2) out vec2 strip_cover;        // share of the strip that the petal covers; gloss (leaf_gloss)
 layout(location = 3) flat out vec4 strip_color;   // linear; 0 petal, 0.5 all of the head, 1 centre
 layout(location = 4) flat out vec4 strip_ground;  // normal; melting
 layout(location = 5) flat out vec4 strip_self;    // base map coordinates below the eye; phase; shadow's strength or -1
+layout(location = 6) out vec4 strip_light;        // canopy_light: sky, sun; leaf_through; cosine for leaf_streak
 
 // Half of the least size at which a head is drawn, pixels; smaller ones cover less.
 const float k_least_radius_px = 0.7;
@@ -79,9 +82,8 @@ Head make_head() {
 vec3 head_point(Head head, vec3 p) {
   vec3 own = head.radius * (head.right * p.x + head.ahead * p.y + head.axis * p.z);
   if (head.shadow >= 0.0) {
-    vec3 above = petal_plane[0].xyz * petal_plane[0].w;
-    mat3 project = shadow_projection(petal_plane[0].xyz);
-    return (above + project * (head.middle + own - above)) * (1.0 - k_shadow_lift);
+    ShadowPlane ground = shadow_plane(petal_root[0], petal_plane[0].xyz, petal_plane[0].w, head.species.size.y);
+    return lifted(ground, cast_shadow(ground, head.middle + own));
   }
   // Along the ellipse's axes.
   vec3 flat_point = head.right * p.x + head.ahead * p.y;
@@ -91,13 +93,29 @@ vec3 head_point(Head head, vec3 p) {
   return head.middle + mix(own, seen, head.met);
 }
 
+// Petals have no way along which they shine: the streak is a spot.
+void light_petal(Head head, vec3 normal, vec3 position) {
+  vec3 plane = petal_plane[0].xyz;
+  float facing = dot(plane, frame.sun_direction.xyz);
+  Canopy canopy = canopy_of(sward_layer.layer, head.species, facing);
+  StripLight light = strip_light_at(head.species.optics, normal, vec3(0.0), position, plane, 0.0);
+  vec3 half_way = normalize(normalize(-position) + frame.sun_direction.xyz + vec3(0.0, 0.0, 1.0e-4));
+  float up = dot(normalize(normal), half_way);
+  strip_normal.xyz = light.normal;
+  strip_cover.y = 0.3 * light.gloss;
+  strip_light = vec4(canopy_light(canopy, max(dot(plane, position - petal_root[0]), 0.0)), light.through,
+                     sqrt(max(1.0 - up * up, 0.0)));
+}
+
 void emit(Head head, vec3 p, vec3 normal, float across, float cover, vec4 color) {
   vec3 position = head_point(head, p);
   gl_Position = frame.clip_from_relative * vec4(position, 1.0);
   if (dot(normal, position) > 0.0) normal = -normal;
   strip_point = vec4(position, length(p.xy));
   strip_normal = vec4(normal, across);
-  strip_cover = vec2(cover * head.cover, max(dot(petal_plane[0].xyz, position) - petal_plane[0].w, 0.0));
+  strip_cover = vec2(cover * head.cover, 0.0);
+  strip_light = vec4(0.0);
+  if (head.shadow < 0.0) light_petal(head, normal, position);
   strip_color = color;
   strip_ground = vec4(petal_plane[0].xyz, 0.0);
   strip_self = vec4(petal_map[0].xyz, head.shadow);
@@ -181,8 +199,8 @@ void main() {
     emit_part(head);
     return;
   }
-  if (dot(petal_plane[0].xyz, frame.sun_direction.xyz) < 0.02) return;
   // Shadows of heads too small to see are left to those of the stems.
-  head.shadow = shadow_strength(sward_layer.layer, petal_map[0].w) * smoothstep(2.0, 5.0, petal_color[0].w);
+  head.shadow = ground_shadow_strength(sward_layer.layer, petal_map[0].w, petal_plane[0].xyz) *
+                smoothstep(2.0, 5.0, petal_color[0].w);
   if (head.shadow > 0.01) emit_part(head);
 }

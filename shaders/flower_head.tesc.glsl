@@ -3,6 +3,7 @@
 
 // Growth of flowers' heads, a patch a cluster: each invocation finds where one plant's stem ends and which way its head
 // looks. A head becomes an isoline, each segment of it a petal; where all heads of a patch are dots, one segment a dot.
+#include "common_shadow_bend.glsl"
 #include "common_worth.glsl"
 #include "common_blade.glsl"
 #include "common_head.glsl"
@@ -14,10 +15,11 @@ layout(location = 0) in uvec4 cluster_words[];
 
 layout(location = 0) out vec4 head_place[];  // middle relative to the eye, radius as drawn (0: not drawn)
 layout(location = 1) out vec4 head_axis[];   // where it looks, unit; its turn about that (rad)
-layout(location = 2) out vec4 head_plane[];  // of the ground: unit normal; offset
+layout(location = 2) out vec4 head_plane[];  // of the ground: unit normal; its bend (shadow_bend)
 layout(location = 3) out vec4 head_color[];  // petals', linear; pixels across
 layout(location = 4) out vec4 head_map[];    // base map coordinates below the eye; phase; distance
 layout(location = 5) patch out uint head_slots[(SWARD_CLUSTER_SIZE + 3) / 4];  // plant of each line, 8 bits each
+layout(location = 13) out vec3 head_root[];  // relative to the eye
 
 // Up, along the stem's end, a little aside, and towards a risen sun as far as the species turns to it.
 vec3 head_direction(SpeciesParams species, vec3 tangent, float turn) {
@@ -43,7 +45,7 @@ vec3 above_ground(vec3 axis, vec3 normal, float freedom) {
   return normalize(mix(normal, raised, freedom * freedom) + 1.0e-4 * normal);
 }
 
-void write_head(SpeciesParams species, Seedling s) {
+void write_head(SpeciesParams species, Triangle triangle, Seedling s) {
   Shoot stem = kind_shoot(species, s.traits, 0);
   vec2 azimuth = vec2(cos(stem.azimuth), sin(stem.azimuth));
   vec3 normal = s.ground_normal;
@@ -64,7 +66,8 @@ void write_head(SpeciesParams species, Seedling s) {
   float distance = max(length(middle), 1.0e-3);
   head_place[gl_InvocationID] = vec4(middle, radius);
   head_axis[gl_InvocationID] = vec4(axis, s.traits.phase * 6.2831853);
-  head_plane[gl_InvocationID] = vec4(normal, dot(normal, s.root));
+  head_plane[gl_InvocationID] = vec4(normal, shadow_bend(triangle, s, species.size.y));
+  head_root[gl_InvocationID] = s.root;
   head_color[gl_InvocationID] =
       vec4(petal_linear(species, s.traits.state, s.traits.phase), 2.0 * radius * frame.focal.y / distance);
   head_map[gl_InvocationID] = vec4(s.map_uv - s.root.xy * uv_per_m, s.traits.phase, s.distance);
@@ -78,7 +81,7 @@ void grow_head() {
   SpeciesParams species = sward_layer.species[sward_species];
   if (!worth_growing(s, species.size.y + 2.0 * species.own_c.y)) return;
   s = grow_seed(fertile, triangle, s);
-  if (s.presence.fade > 0.0) write_head(species, s);
+  if (s.presence.fade > 0.0) write_head(species, triangle, s);
 }
 
 void main() {

@@ -7,25 +7,30 @@
 #include "common_layer.glsl"
 #include "common_visible.glsl"
 #include "common_shadow_projection.glsl"
+#include "common_strip_light.glsl"
 
 layout(lines, invocations = SWARD_GROWTH_INVOCATIONS) in;
 layout(triangle_strip, max_vertices = 4) out;
 
 layout(location = 0) in vec4 line_point[];    // relative to the eye; arc length 0..1
 layout(location = 1) in vec4 line_tangent[];  // unit; half width
-layout(location = 2) in vec4 line_plane[];    // of the ground: unit normal; offset
+layout(location = 2) in vec4 line_plane[];    // of the ground: unit normal; its bend (shadow_bend)
 layout(location = 3) in vec4 line_color[];    // ground at the root; age
 layout(location = 4) in vec4 line_map[];      // base map coordinates below the eye; azimuth; phase
 layout(location = 5) in vec4 line_fade[];     // melting into the ground; distance; share of the width that its edge
                                               // shows, 1: round; which of the plant's shoots
+layout(location = 6) in vec3 line_root[];     // relative to the eye
 
 layout(location = 0) out vec4 strip_point;        // relative to the eye; arc length
-layout(location = 1) out vec4 strip_normal;       // towards the viewer, rounded; -1..1 across
-layout(location = 2) out vec2 strip_cover;        // share of the strip that the plant covers; height above the ground
+layout(location = 1) out vec4 strip_normal;       // towards the viewer, rounded, the ground's share in it; -1..1 across
+layout(location = 2) out vec2 strip_cover;        // share of the strip that the plant covers; gloss (leaf_gloss)
 layout(location = 3) flat out vec4 strip_color;   // ground at the root; age
 layout(location = 4) flat out vec4 strip_ground;  // normal; melting
 layout(location = 5) flat out vec4 strip_self;    // base map coordinates below the eye; phase; shadow's strength, or
                                                   // -1 - shoot
+layout(location = 6) out vec4 strip_light;        // canopy_light: sky, sun; leaf_through; cosine for leaf_streak
+
+layout(location = 0) uniform int sward_species;
 
 // Thinner than this on screen, pixels, a strip is drawn this wide with less coverage.
 const float k_least_half_width_px = 0.6;
@@ -38,15 +43,17 @@ struct Section {
   vec3 side;
   float cover;
   vec3 normal;
+  vec2 canopy;  // light of sky and sun among the neighbours
 };
 
 // What the whole plant shares.
 struct Plant {
   vec3 flat_side;    // unit, level, across the bending plane
+  vec3 root;
   vec3 plane;        // the ground's normal
-  float offset;
   float edge_share;  // least share of the width that is seen: blades are not flat
   float shadow;      // strength; negative: this is the blade itself
+  float far;         // 0: blades can be told apart .. 1: they cannot, and have the ground's normal
 };
 
 void emit(int i, Plant plant, Section s, float across, vec3 normal) {
@@ -54,7 +61,15 @@ void emit(int i, Plant plant, Section s, float across, vec3 normal) {
   gl_Position = frame.clip_from_relative * vec4(position, 1.0);
   strip_point = vec4(position, line_point[i].w);
   strip_normal = vec4(normal, across);
-  strip_cover = vec2(s.cover, max(dot(plant.plane, line_point[i].xyz) - plant.offset, 0.0));
+  strip_cover = vec2(s.cover, 0.0);
+  strip_light = vec4(0.0);
+  if (plant.shadow < 0.0) {
+    StripLight light = strip_light_at(sward_layer.species[sward_species].optics, normal, line_tangent[i].xyz,
+                                      position, plant.plane, plant.far);
+    strip_normal.xyz = light.normal;
+    strip_cover.y = light.gloss;
+    strip_light = vec4(s.canopy, light.through, light.along);
+  }
   strip_color = line_color[i];
   strip_ground = vec4(plant.plane, line_fade[i].x);
   strip_self = vec4(line_map[i].xyw, plant.shadow);
@@ -92,43 +107,52 @@ Section blade_section(int i, Plant plant) {
   float seen = line_tangent[i].w * max(abs(dot(side, flat_side)), plant.edge_share);
   float drawn = max(seen, least_half_width(distance));
   vec3 normal = cross(flat_side, tangent);
-  return Section(point, side * drawn, seen / drawn, dot(normal, to_eye) < 0.0 ? -normal : normal);
+  normal = dot(normal, to_eye) < 0.0 ? -normal : normal;
+  return Section(point, side * drawn, seen / drawn, normal, vec2(1.0));
 }
 
 void emit_blade(Plant plant) {
-  emit_strip(plant, blade_section(0, plant), blade_section(1, plant), 0.5 + 0.6 * (plant.edge_share - 0.35));
+  Section sections[2] = Section[2](blade_section(0, plant), blade_section(1, plant));
+  SpeciesParams species = sward_layer.species[sward_species];
+  Canopy canopy = canopy_of(sward_layer.layer, species, dot(plant.plane, frame.sun_direction.xyz));
+  plant.far = strip_distance(line_fade[0].x, max(sections[0].cover, sections[1].cover));
+  for (int i = 0; i < 2; ++i) {
+    float height = max(dot(plant.plane, line_point[i].xyz - plant.root), 0.0);
+    sections[i].canopy = field_light(species, canopy_light(canopy, height), plant.far);
+  }
+  emit_strip(plant, sections[0], sections[1], 0.5 + 0.6 * (plant.edge_share - 0.35));
 }
 
 void emit_shadow(Plant plant) {
-  mat3 project = shadow_projection(plant.plane);
-  vec3 above = plant.plane * plant.offset;
+  float reach = sward_layer.species[sward_species].size.y;
+  ShadowPlane ground = shadow_plane(plant.root, plant.plane, line_plane[0].w, reach);
   vec3 ends[2];
-  for (int i = 0; i < 2; ++i) ends[i] = above + project * (line_point[i].xyz - above);
+  for (int i = 0; i < 2; ++i) ends[i] = cast_shadow(ground, line_point[i].xyz);
   vec3 way = ends[1] - ends[0];
   if (dot(way, way) < 1.0e-10) return;
   vec3 across = normalize(cross(plant.plane, way));
-  float caster = abs(dot(project * plant.flat_side, across));
+  vec3 flat_shadow = plant.flat_side - plant.plane * dot(plant.plane, plant.flat_side) +
+                     ground.slide * dot(plant.plane, plant.flat_side);
+  float caster = abs(dot(flat_shadow, across));
   Section sections[2];
   for (int i = 0; i < 2; ++i) {
     float distance = max(length(ends[i]), 1.0e-3);
     float thrown = line_tangent[i].w * max(caster, plant.edge_share);
-    float drawn = max(thrown, least_half_width(distance));
-    float lift = 1.0 - k_shadow_lift;
-    sections[i] = Section(ends[i] * lift, across * drawn * lift, thrown / drawn, plant.plane);
+    float drawn = max(thrown + shadow_blur(line_point[i].xyz, ends[i]), least_half_width(distance));
+    sections[i] = Section(lifted(ground, ends[i]), across * (drawn * (1.0 - ground.lift)), thrown / drawn,
+                          plant.plane, vec2(0.0));
   }
   emit_strip(plant, sections[0], sections[1], 0.0);
 }
 
 void main() {
   float azimuth = line_map[0].z;
-  Plant plant = Plant(vec3(-sin(azimuth), cos(azimuth), 0.0), line_plane[0].xyz, line_plane[0].w, line_fade[0].z,
-                      -1.0 - line_fade[0].w);
+  Plant plant = Plant(vec3(-sin(azimuth), cos(azimuth), 0.0), line_root[0], line_plane[0].xyz, line_fade[0].z,
+                      -1.0 - line_fade[0].w, 0.0);
   if (gl_InvocationID == 0) {
     emit_blade(plant);
     return;
   }
-  // Ground that faces away from the sun, or hardly to it, is dark already.
-  if (dot(plant.plane, frame.sun_direction.xyz) < 0.02) return;
-  plant.shadow = shadow_strength(sward_layer.layer, line_fade[0].y);
+  plant.shadow = ground_shadow_strength(sward_layer.layer, line_fade[0].y, plant.plane);
   if (plant.shadow > 0.01) emit_shadow(plant);
 }

@@ -5,6 +5,7 @@
 #include "common_grow.glsl"
 #include "common_blade.glsl"
 #include "common_ground.glsl"
+#include "common_shadow_bend.glsl"
 #include "common_worth.glsl"
 
 layout(vertices = SWARD_CLUSTER_SIZE) out;
@@ -15,12 +16,12 @@ layout(location = 0) out vec4 blade_root[];    // root relative to the eye, heig
 layout(location = 1) out vec4 blade_form[];    // half width as drawn, stiffness, azimuth, lean
 layout(location = 2) out vec4 blade_ground[];  // surface normal x, y; base map coordinates
 layout(location = 3) out vec4 blade_color[];   // ground at the root, linear; age
-layout(location = 4) out vec4 blade_self[];    // contact with the ground, phase, distance, unused
+layout(location = 4) out vec4 blade_self[];    // contact with the ground, phase, distance, bend (shadow_bend)
 layout(location = 5) patch out uint blade_slots[(SWARD_CLUSTER_SIZE + 3) / 4];  // invocation of each line, 8 bits each
 
 layout(binding = SWARD_BINDING_BASE_MAP) uniform sampler2D sward_base_map;
 
-void write_blade(Seedling s) {
+void write_blade(Triangle triangle, Seedling s) {
   vec2 azimuth = vec2(cos(s.traits.azimuth), sin(s.traits.azimuth));
   float slope = -dot(s.ground_normal.xy, azimuth) / s.ground_normal.z;
   BladeCurve curve = free_curve(s.traits.stiffness, s.traits.lean, slope);
@@ -30,7 +31,8 @@ void write_blade(Seedling s) {
   blade_form[gl_InvocationID] = vec4(half_width, s.traits.stiffness, s.traits.azimuth, s.traits.lean);
   blade_ground[gl_InvocationID] = vec4(s.ground_normal.xy, s.map_uv);
   blade_color[gl_InvocationID] = vec4(color, s.traits.age);
-  blade_self[gl_InvocationID] = vec4(find_contact(curve), s.traits.phase, s.distance, 0.0);
+  blade_self[gl_InvocationID] = vec4(find_contact(curve), s.traits.phase, s.distance,
+                                      shadow_bend(triangle, s, sward_layer.species[sward_species].size.y));
 }
 
 void grow_line() {
@@ -40,7 +42,7 @@ void grow_line() {
   Seedling s = place_seed(fertile, triangle, uint(gl_InvocationID));
   if (!worth_growing(s, sward_layer.species[sward_species].size.y)) return;
   s = grow_seed(fertile, triangle, s);
-  if (s.presence.fade > 0.0) write_blade(s);
+  if (s.presence.fade > 0.0) write_blade(triangle, s);
 }
 
 void main() {

@@ -7,6 +7,8 @@
 
 layout(isolines, fractional_odd_spacing) in;
 
+layout(location = 1) uniform vec4 sward_images;  // common_plant_image.glsl: a cutout takes the outline's place
+
 layout(location = 0) in vec4 blade_root[];
 layout(location = 1) in vec4 blade_form[];
 layout(location = 2) in vec4 blade_ground[];
@@ -16,11 +18,12 @@ layout(location = 5) patch in uint blade_slots[(SWARD_CLUSTER_SIZE + 3) / 4];
 
 layout(location = 0) out vec4 line_point;    // relative to the eye; arc length 0..1
 layout(location = 1) out vec4 line_tangent;  // unit; half width
-layout(location = 2) out vec4 line_plane;    // of the ground: unit normal; offset
+layout(location = 2) out vec4 line_plane;    // of the ground: unit normal; its bend (shadow_bend)
 layout(location = 3) out vec4 line_color;    // ground at the root; age
 layout(location = 4) out vec4 line_map;      // base map coordinates below the eye; azimuth; phase
 layout(location = 5) out vec4 line_fade;     // melting into the ground; distance of the root; share of the width that
                                              // its edge shows; which of the plant's shoots
+layout(location = 6) out vec3 line_root;     // relative to the eye
 
 // A blade seen from its edge shows at least this share of its width.
 const float k_edge_share = 0.35;
@@ -44,8 +47,9 @@ void main() {
 
   vec3 point = root + blade_root[i].w * vec3(azimuth * p.along, p.up);
   line_point = vec4(point, s);
-  line_tangent = vec4(azimuth * sin(p.inclination), cos(p.inclination), form.x * outline(s));
-  line_plane = vec4(normal, dot(normal, root));
+  line_tangent = vec4(azimuth * sin(p.inclination), cos(p.inclination), form.x * (sward_images.w < 0.0 ? outline(s) : 1.0));
+  line_plane = vec4(normal, blade_self[i].w);
+  line_root = root;
   line_color = blade_color[i];
   vec2 uv_per_m = sward_layer.layer.map.xy / sward_layer.layer.map.zw;
   line_map = vec4(ground.zw - root.xy * uv_per_m, form.z, blade_self[i].y);

@@ -87,7 +87,7 @@ void emit_facet(Stone s, vec3 a, vec3 b, vec3 c) {
 void emit_contact(Stone s) {
   float near = smoothstep(5.0, 14.0, pixels(s.object, s.object.width));
   if (near <= 0.0) return;
-  float lift = 1.0 - k_shadow_lift;
+  float lift = 1.0 - object_shadow_plane(s.object).lift;
   for (int i = 0; i < 2; ++i) {
     float angle = 6.2831853 * (i == 0 ? s.object.first : s.object.second);
     for (int edge = 0; edge < 2; ++edge) {
@@ -136,11 +136,11 @@ void emit_shadow(Stone s) {
   Object o = s.object;
   float strength = object_shadow_strength(o);
   if (strength <= 0.01) return;
-  mat3 project = shadow_projection(o.plane);
+  ShadowPlane ground = object_shadow_plane(o);
   float a = 6.2831853 * o.first, b = 6.2831853 * o.second;
   Part part = Part(vec2(0.5), s.cover, 2.0, strength, 1.0);
   vec3 outline[6] = vec3[6](o.root, belt(s, a), belt(s, b), shoulder(s, a), shoulder(s, b), top(s));
-  for (int i = 0; i < 6; ++i) emit(o, part, cast_on_plane(o, project, outline[i]), o.plane);
+  for (int i = 0; i < 6; ++i) emit(o, part, cast_on_ground(ground, outline[i]), o.plane);
   EndPrimitive();
 }
 

@@ -12,8 +12,8 @@ float outline(float s) {
 }
 
 float object_cover(bool shadow) {
-  float x = abs(part_mask.x), soft = max(part_footprint.x, 1.0e-3);
-  return clamp((outline(part_mask.y) - x) / soft + 0.5, 0.0, 1.0);
+  if (has_cutout()) return cutout_cover(part_mask.xy);
+  return edge_cover(outline(part_mask.y) - abs(part_mask.x));
 }
 
 // The rib is pale, the fields between the veins bulge.

@@ -63,10 +63,12 @@ void emit_leaf(Object o, Frond f, Section a, Section b) {
   for (int i = 0; i < 2; ++i) {
     Section at = i == 0 ? a : b;
     vec3 side = leaf_side(f, at);
+    vec3 half_way = normalize(normalize(-at.middle) + frame.sun_direction.xyz);
     vec3 normal = cross(at.tangent, f.flat_side);
     normal *= normal.z < 0.0 ? -1.0 : 1.0;
     for (int edge = -1; edge < 2; edge += 2) {
-      Part part = Part(vec2(float(edge), at.along), 1.0 / inflation(size), float(gl_InvocationID), k_part_object, 1.0);
+      Part part = Part(vec2(float(edge), at.along), 1.0 / inflation(size), float(gl_InvocationID), k_part_object,
+                       dot(normalize(at.tangent), half_way));
       // The two halves of a leaf rise from the rib.
       vec3 folded = side * float(edge) + 0.25 * normal;
       emit(o, part, at.middle + folded * half_width, normal - 0.45 * float(edge) * side);
@@ -78,12 +80,12 @@ void emit_leaf(Object o, Frond f, Section a, Section b) {
 void emit_shadow(Object o, Frond f, Section a, Section b) {
   float strength = object_shadow_strength(o);
   if (strength <= 0.01) return;
-  mat3 project = shadow_projection(o.plane);
+  ShadowPlane ground = object_shadow_plane(o);
   for (int i = 0; i < 2; ++i) {
     Section at = i == 0 ? a : b;
     for (int edge = -1; edge < 2; edge += 2) {
       Part part = Part(vec2(float(edge), at.along), 1.0, float(gl_InvocationID), strength, 1.0);
-      emit(o, part, cast_on_plane(o, project, at.middle + f.flat_side * (float(edge) * f.half_width)), o.plane);
+      emit(o, part, cast_on_ground(ground, at.middle + f.flat_side * (float(edge) * f.half_width)), o.plane);
     }
   }
   EndPrimitive();

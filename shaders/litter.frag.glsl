@@ -15,8 +15,7 @@ float outline(float s, float side) {
 
 float object_cover(bool shadow) {
   if (is_twig()) return 1.0;
-  float x = abs(part_mask.x), soft = max(part_footprint.x, 1.0e-3);
-  return clamp((outline(part_mask.y, sign(part_mask.x)) - x) / soft + 0.5, 0.0, 1.0);
+  return edge_cover(outline(part_mask.y, sign(part_mask.x)) - abs(part_mask.x));
 }
 
 vec3 dead_leaf(SpeciesParams species) {
@@ -35,9 +34,10 @@ vec3 dead_leaf(SpeciesParams species) {
 
 vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   Leaf leaf;
-  leaf.albedo = dead_leaf(species);
+  leaf.albedo = dead_leaf(species) * image_detail(part_mask.xy);
   leaf.sky = vec3(mix(species.age_tint.w, 1.0, 0.7));
   leaf.sun = 1.0;
   vec3 normal = normalize(part_normal.xyz);
-  return shade_leaf(species, leaf, normal * (dot(normal, to_eye) < 0.0 ? -1.0 : 1.0), to_eye);
+  normal *= dot(normal, to_eye) < 0.0 ? -1.0 : 1.0;
+  return shade_leaf(species, leaf, normal, normalize(mix(normal, part_ground.xyz, part_ground.w)), to_eye);
 }

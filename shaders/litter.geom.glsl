@@ -59,13 +59,13 @@ vec3 litter_normal(Litter l, float s, float across) {
   return l.object.plane - l.axes[1] * min(tilt, 1.0) - l.axes[0] * (2.0 * s - 1.0) * l.curl * 1.8 / l.reach;
 }
 
-void emit_half(Litter l, float from, float to, float what, mat3 project) {
+void emit_half(Litter l, float from, float to, float what, ShadowPlane ground) {
   for (int i = 0; i < 2; ++i) {
     float s = i == 0 ? l.object.first : l.object.second;
     for (int edge = 0; edge < 2; ++edge) {
       float across = edge == 0 ? from : to;
       vec3 point = litter_point(l, s, across);
-      vec3 drawn = what >= 0.0 ? cast_on_plane(l.object, project, point) : point * (1.0 - 0.5 * k_shadow_lift);
+      vec3 drawn = what >= 0.0 ? cast_on_ground(ground, point) : point * (1.0 - 1.5 * ground.lift);
       Part part = Part(vec2(across, s), l.cover, l.twig ? 1.0 : 0.0, what, 1.0);
       emit(l.object, part, drawn, litter_normal(l, s, 0.5 * (from + to)));
     }
@@ -75,13 +75,12 @@ void emit_half(Litter l, float from, float to, float what, mat3 project) {
 
 void main() {
   Litter l = this_litter();
-  mat3 project = mat3(1.0);
+  ShadowPlane ground = object_shadow_plane(l.object);
   float what = k_part_object;
   if (gl_InvocationID == 1) {
     what = object_shadow_strength(l.object);
     if (what <= 0.01) return;
-    project = shadow_projection(l.object.plane);
   }
-  emit_half(l, -1.0, 0.0, what, project);
-  emit_half(l, 0.0, 1.0, what, project);
+  emit_half(l, -1.0, 0.0, what, ground);
+  emit_half(l, 0.0, 1.0, what, ground);
 }

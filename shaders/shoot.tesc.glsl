@@ -3,6 +3,7 @@
 
 // Growth of kinds made of shoots, a patch a cluster: each invocation grows one seed, the shoots that are shown become
 // isolines. A patch has at most 64 of them; further instances grow the further shoots of each plant.
+#include "common_shadow_bend.glsl"
 #include "common_worth.glsl"
 #include "common_blade.glsl"
 #include "common_ground.glsl"
@@ -17,7 +18,7 @@ layout(location = 0) out vec4 plant_root[];    // root relative to the eye, heig
 layout(location = 1) out vec4 plant_form[];    // width as drawn, stiffness, azimuth, lean
 layout(location = 2) out vec4 plant_ground[];  // surface normal x, y; base map coordinates
 layout(location = 3) out vec4 plant_color[];   // ground at the root, linear; age
-layout(location = 4) out vec4 plant_self[];    // shoots shown, phase, distance, unused
+layout(location = 4) out vec4 plant_self[];    // shoots shown, phase, distance, bend (shadow_bend)
 layout(location = 5) out uvec4 plant_words[];  // contacts of the shoots with the ground, 8 bits each; state
 layout(location = 6) patch out uvec4 shoot_slots[4];  // plant and shoot of each line, 8 bits each
 layout(location = 10) patch out int shoot_first;      // first shoot of each plant in this patch
@@ -43,7 +44,7 @@ uvec3 find_contacts(SpeciesParams species, Seedling s, float shown) {
   return words;
 }
 
-void write_plant(SpeciesParams species, Seedling s) {
+void write_plant(SpeciesParams species, Triangle triangle, Seedling s) {
   float ratio = s.distance / sward_layer.layer.detail.x;
   s.traits.height *= s.presence.fade;
   vec2 shoots = kind_shoots(species, s.traits, ratio);
@@ -54,7 +55,7 @@ void write_plant(SpeciesParams species, Seedling s) {
   plant_form[gl_InvocationID] = vec4(s.traits.width, s.traits.stiffness, s.traits.azimuth, s.traits.lean);
   plant_ground[gl_InvocationID] = vec4(s.ground_normal.xy, s.map_uv);
   plant_color[gl_InvocationID] = vec4(color, s.traits.age);
-  plant_self[gl_InvocationID] = vec4(shown, s.traits.phase, s.distance, 0.0);
+  plant_self[gl_InvocationID] = vec4(shown, s.traits.phase, s.distance, shadow_bend(triangle, s, species.size.y));
   plant_words[gl_InvocationID] = uvec4(find_contacts(species, s, shown), s.traits.state);
 }
 
@@ -67,7 +68,7 @@ void grow_plant() {
   SpeciesParams species = sward_layer.species[sward_species];
   if (!worth_growing(s, species.size.y)) return;
   s = grow_seed(fertile, triangle, s);
-  if (s.presence.fade > 0.0) write_plant(species, s);
+  if (s.presence.fade > 0.0) write_plant(species, triangle, s);
 }
 
 // A share of a shoot's width below which it has none.

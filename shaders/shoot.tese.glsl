@@ -9,6 +9,7 @@
 layout(isolines, fractional_odd_spacing) in;
 
 layout(location = 0) uniform int sward_species;
+layout(location = 1) uniform vec4 sward_images;  // common_plant_image.glsl: a cutout takes the outline's place
 
 layout(location = 0) in vec4 plant_root[];
 layout(location = 1) in vec4 plant_form[];
@@ -21,11 +22,12 @@ layout(location = 10) patch in int shoot_first;
 
 layout(location = 0) out vec4 line_point;    // relative to the eye; arc length 0..1
 layout(location = 1) out vec4 line_tangent;  // unit; half width
-layout(location = 2) out vec4 line_plane;    // of the ground: unit normal; offset
+layout(location = 2) out vec4 line_plane;    // of the ground: unit normal; its bend (shadow_bend)
 layout(location = 3) out vec4 line_color;    // ground at the root; age
 layout(location = 4) out vec4 line_map;      // base map coordinates below the eye; azimuth; phase
 layout(location = 5) out vec4 line_fade;     // melting into the ground; distance of the root; share of the width that
                                              // its edge shows; which of the plant's shoots
+layout(location = 6) out vec3 line_root;     // relative to the eye
 
 PlantTraits drawn_traits(int plant) {
   vec4 form = plant_form[plant];
@@ -58,10 +60,11 @@ void main() {
   float s = gl_TessCoord.x;
   BladePoint p = curve_point(curve, s);
 
-  float half_width = 0.5 * plant_form[plant].x * shoot.width * shown * kind_outline(species, index, s);
+  float half_width = 0.5 * plant_form[plant].x * shoot.width * shown * (sward_images.w < 0.0 ? kind_outline(species, index, s) : 1.0);
   line_point = vec4(foot + plant_root[plant].w * shoot.height * vec3(azimuth * p.along, p.up), s);
   line_tangent = vec4(azimuth * sin(p.inclination), cos(p.inclination), half_width);
-  line_plane = vec4(normal, dot(normal, root));
+  line_plane = vec4(normal, plant_self[plant].w);
+  line_root = root;
   line_color = plant_color[plant];
   vec2 uv_per_m = sward_layer.layer.map.xy / sward_layer.layer.map.zw;
   float distance = plant_self[plant].z;

@@ -39,6 +39,42 @@ Expected<std::shared_ptr<const GrayMap>> load_mask(const std::string& path) {
   return std::shared_ptr<const GrayMap>(std::move(mask));
 }
 
+/// A failure to load what a scene names, told where it does.
+tl::unexpected<Error> fail_at(const PlantImageFile& file, const char* key, const std::string& why) {
+  const std::string where = file.place.empty() ? std::string() : file.place + ": ";
+  return fail(where + key + " = \"" + file.path + "\": " + why);
+}
+
+using PlantImages = std::map<std::string, std::shared_ptr<const PlantImage>>;
+
+Expected<std::shared_ptr<const PlantImage>> load_plant_image(const std::string& path) {
+  auto grey = load_mask(path);
+  if (!grey) return tl::unexpected(grey.error());
+  return PlantImage::create((*grey)->width, (*grey)->height, (*grey)->values);
+}
+
+Expected<void> fill_image(const PlantImageFile& file, const char* key, const Scene& scene, PlantImages& known,
+                          std::shared_ptr<const PlantImage>& image) {
+  if (file.path.empty()) return {};
+  const std::string path = scene.resolve(file.path);
+  std::shared_ptr<const PlantImage>& kept = known[path];
+  if (!kept) {
+    auto loaded = load_plant_image(path);
+    if (!loaded) return fail_at(file, key, loaded.error().message);
+    kept = std::move(*loaded);
+  }
+  image = kept;
+  return {};
+}
+
+Expected<void> fill_images(const Scene& scene, PlantImages& known, Species& species) {
+  species.detail = built_in_detail(species.detail_file.path);
+  if (!species.detail) {
+    if (auto filled = fill_image(species.detail_file, "detail", scene, known, species.detail); !filled) return filled;
+  }
+  return fill_image(species.cutout_file, "cutout", scene, known, species.cutout);
+}
+
 using Masks = std::map<std::string, std::shared_ptr<const GrayMap>>;
 
 Expected<void> fill_mask(const std::string& file, const Scene& scene, Masks& known,
@@ -58,10 +94,13 @@ Expected<void> fill_mask(const std::string& file, const Scene& scene, Masks& kno
 
 Expected<void> load_maps(Scene& scene) {
   Masks masks;
+  PlantImages images;
   for (Layer& layer : scene.layers) {
     if (auto filled = fill_mask(layer.mask_file, scene, masks, layer.mask); !filled) return filled;
     for (Species& species : layer.species)
       if (auto filled = fill_mask(species.mask_file, scene, masks, species.mask); !filled) return filled;
+    for (Species& species : layer.species)
+      if (auto filled = fill_images(scene, images, species); !filled) return filled;
     if (layer.distribution_file.empty()) continue;
     auto colors = load_map(scene.resolve(layer.distribution_file));
     if (!colors) return tl::unexpected(colors.error());

@@ -6,7 +6,8 @@
 
 namespace sward::host {
 
-/// Loads the masks and distribution maps that the scene's layers name. Each file is read once. Fails naming the file.
+/// Loads the masks, distribution maps and plants' images that the scene's layers name; details that are built in are
+/// made. Each file is read once. Fails naming the file, and for plants' images the scene's line.
 Expected<void> load_maps(Scene& scene);
 
 }  // namespace sward::host

@@ -76,7 +76,7 @@ void expect_draw_leaves_what_it_says(const Layer& layer, int samples) {
   const gl::Bindings& bindings = patch.frame().bindings();
   GlState left =
       left_by_stage(bindings, {bindings.base_map, bindings.base_map_raw, bindings.triangles, bindings.surface,
-                               bindings.exclusions, bindings.placement, bindings.blade_shape});
+                               bindings.exclusions, bindings.placement, bindings.blade_shape, bindings.plant_images});
   left["patch vertices"] = {1};
   expect_only_changed(before, capture_state(), left);
   EXPECT_GT(patch.renderer().stats(true).primitives, 0u);
@@ -112,6 +112,7 @@ TEST_F(VegetationState, BindingPointsCanBeMoved) {
   bindings.triangles = 12;
   bindings.surface = 2;
   bindings.blade_shape = 11;
+  bindings.plant_images = 10;
   bindings.placement = 6;
   bindings.exclusions = 7;
   Patch patch(grass_and_soil(), plain_map(k_side, 8, k_green), bindings);

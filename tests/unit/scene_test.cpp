@@ -136,6 +136,10 @@ translucency = 0.75
 attenuation = 0.625
 specular = 0.375
 shininess = 7
+detail = "fibres"
+detail_strength = 0.25
+detail_repeat = 3
+cutout = "maps/cut.png"
 [[layer.species]]
 name = "water"
 kind = "none"
@@ -227,6 +231,11 @@ hsv = [0, 1, 1]
   EXPECT_EQ(grass.attenuation, 0.625f);
   EXPECT_EQ(grass.specular, 0.375f);
   EXPECT_EQ(grass.shininess, 7.0f);
+  EXPECT_EQ(grass.detail_file.path, "fibres");
+  EXPECT_TRUE(grass.detail_file.place.starts_with("all.toml:")) << grass.detail_file.place;
+  EXPECT_EQ(grass.detail_strength, 0.25f);
+  EXPECT_EQ(grass.detail_repeat, 3.0f);
+  EXPECT_EQ(grass.cutout_file.path, "maps/cut.png");
   const Species& water = low.species[1];
   EXPECT_EQ(water.kind, PlantKind::none);
   EXPECT_TRUE(water.forbids);
@@ -335,7 +344,8 @@ TEST(Scene, ValuesOutOfRange) {
         "width_m = [0.0, 0.1]",   "stiffness = [0.5, 1.5]", "stiffness = [-0.1, 0.5]", "lean_deg = 91",
         "phototropism = 2",       "segments = 0",           "segments = 65",           "tint = [-1, 1, 1]",
         "age_tint = [1, inf, 1]", "age_share = 1.1",        "root_shade = -0.1",       "translucency = -1",
-        "attenuation = -1",       "specular = -1",          "shininess = 0.5"}) {
+        "attenuation = -1",       "specular = -1",          "shininess = 0.5",         "detail = 1",
+        "detail_strength = 1.5",  "detail_repeat = 0",      "cutout = \"\""}) {
     expect_error(with_added(9, line), 10, line.substr(0, line.find(' ')) + " = ");
   }
   for (const std::string line : {"samples = 64", "samples = 8194", "size_m = 0", "seed = -1", "seed = 4294967296",

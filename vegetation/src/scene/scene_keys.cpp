@@ -145,6 +145,24 @@ Key<Species> weights_key() {
   return key;
 }
 
+/// An image on the plant, and where the scene names it.
+Key<Species> plant_image_key(const std::string& name, PlantImageFile Species::*member, const std::string& expected) {
+  return {name, expected, {}, [=](const toml::node& node, Species& species, const Context& context) -> Expected<void> {
+            const auto* value = node.as_string();
+            if (value == nullptr || value->get().empty()) {
+              return context.fail_at(node, name + " = " + quoted(node) + " in [[layer.species]]: expected " + expected);
+            }
+            species.*member = {value->get(), context.file + ":" + std::to_string(node.source().begin.line)};
+            return {};
+          }};
+}
+
+std::string detail_expected() {
+  std::string names;
+  for (const std::string_view name : built_in_details()) names += "\"" + std::string(name) + "\" or ";
+  return names + "the path of an image";
+}
+
 // ---- [layer.species.tuft], [layer.species.flower], [layer.species.custom] ----
 
 /// `#rrggbb` as sRGB, 0..1.
@@ -311,11 +329,23 @@ Expected<void> check_kind_tables(const toml::table& table, const Species& specie
   return {};
 }
 
+/// Kinds whose outline an image can take the place of.
+Expected<void> check_cutout(const toml::table& table, PlantKind kind, const Context& context) {
+  for (const PlantKind outlined :
+       {PlantKind::blade, PlantKind::tuft, PlantKind::leaf, PlantKind::fern, PlantKind::billboard})
+    if (kind == outlined) return {};
+  return refuse(table, {"cutout"},
+                "here, expected only with kind = \"blade\", \"tuft\", \"leaf\", \"fern\" or \"billboard\"", context);
+}
+
 /// Keys that say nothing to the species' kind.
 Expected<void> check_kind(const toml::table& table, const Species& species, const Context& context) {
   const PlantKind kind = species.kind;
+  if (auto fits = check_cutout(table, kind, context); !fits) return fits;
   if (kind == PlantKind::gravel) {
-    auto fits = refuse(table, {"stiffness", "lean_deg", "phototropism", "translucency", "attenuation"},
+    auto fits = refuse(table,
+                       {"stiffness", "lean_deg", "phototropism", "translucency", "attenuation", "detail",
+                        "detail_strength", "detail_repeat", "cutout"},
                        "on stones (kind = \"gravel\")", context);
     if (!fits) return fits;
   }
@@ -355,8 +385,9 @@ Expected<void> check_species(const toml::table& table, const Species& species, c
   if (species.kind == PlantKind::none) {
     return refuse(
         table,
-        {"height_m", "width_m", "stiffness", "lean_deg", "phototropism", "segments", "tint", "age_tint", "age_share",
-         "root_shade", "translucency", "attenuation", "specular", "shininess", "leaves", "trunk_share", "taper"},
+        {"height_m", "width_m",     "stiffness",  "lean_deg",     "phototropism",    "segments",      "tint",
+         "age_tint", "age_share",   "root_shade", "translucency", "attenuation",     "specular",      "shininess",
+         "leaves",   "trunk_share", "taper",      "detail",       "detail_strength", "detail_repeat", "cutout"},
         "where nothing grows (kind = \"none\")", context);
   }
   if (auto fits = refuse(table, {"forbids"}, "on what grows, expected only with kind = \"none\"", context); !fits) {
@@ -571,6 +602,10 @@ const Schema<Species>& species_schema() {
        number("attenuation", &S::attenuation, within(0, 10000)),
        number("specular", &S::specular, within(0, 10000)),
        number("shininess", &S::shininess, within(1, 10000)),
+       plant_image_key("detail", &S::detail_file, detail_expected()),
+       number("detail_strength", &S::detail_strength, within(0, 1)),
+       number("detail_repeat", &S::detail_repeat, within(0.1, 100)),
+       plant_image_key("cutout", &S::cutout_file, "the path of an image"),
        whole_number("leaves", &S::leaves, within(1, 8)),
        number("trunk_share", &S::trunk_share, within(0, 0.9)),
        number("taper", &S::taper, within(0, 1)),

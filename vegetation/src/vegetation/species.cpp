@@ -105,6 +105,20 @@ void check_growth(const Species& species, Check& check) {
   check.within("taper", species.taper, 0.0f, 1.0f);
 }
 
+bool has_outline(PlantKind kind) {
+  return kind == PlantKind::blade || kind == PlantKind::tuft || kind == PlantKind::leaf || kind == PlantKind::fern ||
+         kind == PlantKind::billboard;
+}
+
+void check_images(const Species& species, Check& check) {
+  check.within("detail_strength", species.detail_strength, 0.0f, 1.0f);
+  check.within("detail_repeat", species.detail_repeat, 0.1f, 100.0f);
+  check.require(!species.detail || (species.kind != PlantKind::none && species.kind != PlantKind::gravel),
+                "detail is set, which kinds none and gravel do not have");
+  check.require(!species.cutout || has_outline(species.kind),
+                "cutout is set, which only kinds blade, tuft, leaf, fern and billboard have");
+}
+
 void check_tuft(const TuftShape& tuft, Check& check) {
   check.within("tuft.blades.min", float(tuft.blades.min), 1.0f, 9.0f);
   check.within("tuft.blades.max", float(tuft.blades.max), 1.0f, 9.0f);
@@ -248,6 +262,7 @@ Expected<void> validate(const Layer& layer) {
     check_classification(species, check);
     check_growth(species, check);
     check_kind(species, check);
+    check_images(species, check);
     check_placement(species, layer.water_level_m, check);
     check_seasons(species, check);
     if (auto checked = check.result(); !checked) return checked;
@@ -265,6 +280,10 @@ Expected<void> require_maps(const Layer& layer) {
   for (const Species& species : layer.species) {
     if (!species.mask && !species.mask_file.empty())
       return missing(": species '" + species.name + "'", "mask", species.mask_file);
+    if (!species.detail && !species.detail_file.path.empty())
+      return missing(": species '" + species.name + "'", "detail", species.detail_file.path);
+    if (!species.cutout && !species.cutout_file.path.empty())
+      return missing(": species '" + species.name + "'", "cutout", species.cutout_file.path);
   }
   return {};
 }

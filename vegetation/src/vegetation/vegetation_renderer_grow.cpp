@@ -114,6 +114,8 @@ Expected<GrowthStage> GrowthStage::create(const Layer& layer, const gl::ShaderLi
   auto shapes = make_blade_shapes();
   if (!shapes) return tl::unexpected(shapes.error());
   attach_shapes(*shapes, stage.blade_shape_buffer_, stage.blade_shape_);
+  stage.image_array_ = PlantImageArray::create(layer);
+  for (const Species& species : layer.species) stage.images_.push_back(stage.image_array_.of(species));
   stage.vertex_array_ = make_cluster_array();
   return stage;
 }
@@ -133,7 +135,8 @@ Expected<void> GrowthStage::add_species(const Layer& layer, const Species& speci
       programs_.push_back(std::move(*program));
       program_names_.push_back(name);
     }
-    passes.push_back({row, GLsizei(instances_of(kind, layer, species)), part_of(kind, layer, species)});
+    passes.push_back({row, GLsizei(instances_of(kind, layer, species)), part_of(kind, layer, species),
+                      glGetUniformLocation(programs_[row].id(), "sward_images")});
   }
   return {};
 }
@@ -157,7 +160,8 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
                              {units.surface, inputs.triangles.surface()},
                              {units.exclusions, inputs.triangles.exclusions()},
                              {units.placement, inputs.placement.masks()},
-                             {units.blade_shape, blade_shape_.id()}});
+                             {units.blade_shape, blade_shape_.id()},
+                             {units.plant_images, image_array_.texture()}});
   glPatchParameteri(GL_PATCH_VERTICES, 1);
   glBindVertexArray(vertex_array_.id());
   for (size_t i = 0; i < classified.places().size(); ++i) {
@@ -168,6 +172,7 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
       const GLuint program = programs_[each.program].id();
       glUseProgram(program);
       glProgramUniform1i(program, k_species_location, place.species);
+      if (each.images >= 0) glProgramUniform4fv(program, each.images, 1, &images_[size_t(place.species)].x);
       draw(each, pass, place.stream, draws_in_parts_ ? fertile[i] : 0);
     }
   }

@@ -11,6 +11,7 @@
 #include <sward/vegetation/vegetation_renderer.h>
 
 #include "vegetation/placement_textures.h"
+#include "vegetation/plant_image_array.h"
 #include "vegetation/vegetation_renderer_buffers.h"
 
 namespace sward {
@@ -102,6 +103,7 @@ class GrowthStage {
     size_t program;
     GLsizei instances;  ///< Of each patch.
     GLsizei part;       ///< Most clusters in a draw, where draws go in parts.
+    GLint images;       ///< Location of sward_images; -1: the program reads none.
   };
   Expected<void> add_species(const Layer& layer, const Species& species, const gl::ShaderLibrary& shaders,
                              const gl::Bindings& bindings);
@@ -112,6 +114,8 @@ class GrowthStage {
   std::vector<std::vector<Pass>> passes_;   ///< By species.
   gl::Buffer blade_shape_buffer_;
   gl::Texture blade_shape_;
+  PlantImageArray image_array_;
+  std::vector<glm::vec4> images_;  ///< By species: sward_images.
   gl::VertexArray vertex_array_;
   bool draws_in_parts_ = false;
 };

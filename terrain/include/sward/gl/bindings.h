@@ -22,6 +22,7 @@ struct Bindings {
   GLuint triangles = 3;     ///< RGBA32UI buffer texture: triangle records
   GLuint surface = 4;       ///< RGBA32UI buffer texture: surface nodes
   GLuint blade_shape = 5;   ///< RGBA32F blade shapes
+  GLuint plant_images = 6;  ///< R8 array: details and cutouts of a layer's plants
   GLuint placement = 14;    ///< RGBA32UI buffer texture: masks
   GLuint exclusions = 15;   ///< RGBA32F buffer texture: excluded shapes near triangles
 };

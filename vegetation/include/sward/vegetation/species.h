@@ -5,6 +5,7 @@
 #include <sward/terrain/color_map.h>
 #include <sward/terrain/error.h>
 #include <sward/vegetation/placement.h>
+#include <sward/vegetation/plant_image.h>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
@@ -68,6 +69,12 @@ struct CustomKind {
   std::vector<float> parameters;
 };
 
+/// Where a scene says that a plant's image comes from. Read by those who load scenes, not here.
+struct PlantImageFile {
+  std::string path;   ///< Of an image, or one of built_in_details(); empty: none.
+  std::string place;  ///< Where it says so, for messages: "FILE:LINE".
+};
+
 /// No bound of a range.
 inline constexpr float k_unbounded = std::numeric_limits<float>::infinity();
 
@@ -123,6 +130,14 @@ struct Species {
   int leaves = 6;            ///< Kinds leaf and fern: leaves or fronds of a plant, 1..8.
   float trunk_share = 0.3f;  ///< Kind billboard: share of the height below the crown, 0..0.9; 0: a shrub.
   float taper = 0.0f;        ///< Kind billboard: crown's outline from 0, an ellipse, to 1, a cone.
+
+  // Images on the plant (PlantImage). Kinds none and gravel have no detail; cutouts are for blade, tuft, leaf, fern and
+  // billboard, whose own outlines they replace.
+  std::shared_ptr<const PlantImage> detail;  ///< On the colour: half grey changes nothing. Null: none.
+  float detail_strength = 0.35f;             ///< Black and white change the colour by so much, 0..1.
+  float detail_repeat = 1.0f;                ///< Times that the image lies along the plant, 0.1..100.
+  std::shared_ptr<const PlantImage> cutout;  ///< What is darker than half grey is not there. Null: none.
+  PlantImageFile detail_file, cutout_file;
 
   // Placement rules. Each is a factor 0..1 on the score, asked at a cluster's centre; each seed then asks again at its
   // own place, and stands with the probability of the factor there: nowhere where it is 0.
@@ -181,7 +196,7 @@ inline constexpr int k_most_parameters = 16;
 /// Fails naming layer, species, field and range.
 Expected<void> validate(const Layer& layer);
 
-/// Fails where a file of a mask or distribution map is named but not loaded.
+/// Fails where a file of a mask, a distribution map or a plant's image is named but not loaded.
 Expected<void> require_maps(const Layer& layer);
 
 /// Whether a rule asks for FixedTriangles::altitude().
