@@ -6,11 +6,9 @@
 #include "common_light.glsl"
 #include "common_ground.glsl"
 #include "common_layer.glsl"
+#include "common_shadow_light.glsl"
 
 layout(binding = SWARD_BINDING_BASE_MAP) uniform sampler2D sward_base_map;
-
-// Sunlight left in the densest shadow: light between the blades and through them.
-const float k_shadow_light = 0.12;
 
 // The ground at `point` (relative to the eye). `uv_at_eye`: base map coordinates below the eye; `normal`: of the drawn
 // surface; `open`: share of all light, `sun`: share of the sun's that comes here.

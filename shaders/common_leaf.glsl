@@ -18,6 +18,9 @@ struct LeafSun {
   float shine;    // leaf_streak() times leaf_gloss()
 };
 
+// A blade is darker along its middle. `across`: -1..1.
+float leaf_vein(float across) { return 1.0 - 0.12 * exp(-12.0 * across * across); }
+
 // A blade at arc length `s`, `across` -1..1: the ground's colour, tinted towards the tip, older ones drier; one blade
 // differs from the next. In the open: the canopy's shade is the caller's.
 Leaf grass_leaf(SpeciesParams species, vec4 ground_and_age, float s, float across, float phase) {
@@ -27,9 +30,8 @@ Leaf grass_leaf(SpeciesParams species, vec4 ground_and_age, float s, float acros
   // Blades dry from the tip down.
   float dry = age * mix(0.6, 1.0, smoothstep(0.2, 1.0, s));
   float own = 0.82 + 0.36 * fract(phase * 7.31);
-  float vein = 1.0 - 0.12 * exp(-12.0 * across * across);
   Leaf leaf;
-  leaf.albedo = ground_and_age.rgb * mix(fresh, species.age_tint.rgb, dry) * (own * vein);
+  leaf.albedo = ground_and_age.rgb * mix(fresh, species.age_tint.rgb, dry) * (own * leaf_vein(across));
   // The base map shows leaves and the shade between them together; a leaf alone is brighter.
   leaf.albedo *= 2.7 / (1.0 + root_shade);
   // What comes down has met other leaves on its way.
@@ -66,4 +68,12 @@ vec3 shade_leaf(SpeciesParams species, Leaf leaf, vec3 own, vec3 shading, vec3 t
   light.through = leaf_through(species.optics, dot(own, sun), -dot(to_eye, sun));
   light.shine = leaf_streak(species.optics, sqrt(aside)) * leaf_gloss(own, half_way, to_eye);
   return shade_leaf(leaf, light, shading);
+}
+
+// Light from a leaf of a strip. `light`: canopy_light of sky and sun, leaf_through, cosine for leaf_streak; `gloss`:
+// leaf_gloss; `normal`: for diffuse light, unit.
+vec3 strip_leaf(SpeciesParams species, Leaf leaf, vec4 light, float gloss, vec3 normal) {
+  leaf.sky *= light.x;
+  leaf.sun *= light.y;
+  return shade_leaf(leaf, LeafSun(light.z, leaf_streak(species.optics, light.w) * gloss), normal);
 }

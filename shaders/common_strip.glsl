@@ -25,15 +25,12 @@ layout(location = 6) in vec4 strip_light;        // canopy_light: sky, sun; leaf
 layout(location = 0) out vec4 color;
 
 vec3 shadow_color(float strength) {
-  return darkened_ground(strip_point.xyz, strip_self.xy, strip_ground.xyz, 1.0, mix(1.0, k_shadow_light, strength));
+  return darkened_ground(strip_point.xyz, strip_self.xy, strip_ground.xyz, 1.0, shadow_light(strength));
 }
 
 // A leaf's light, in the shade of its neighbours.
 vec3 lit_leaf(SpeciesParams species, Leaf leaf) {
-  leaf.sky *= strip_light.x;
-  leaf.sun *= strip_light.y;
-  LeafSun light = LeafSun(strip_light.z, leaf_streak(species.optics, strip_light.w) * strip_cover.y);
-  return shade_leaf(leaf, light, normalize(strip_normal.xyz));
+  return strip_leaf(species, leaf, strip_light, strip_cover.y, normalize(strip_normal.xyz));
 }
 
 // A leaf of a meadow: far away it becomes the ground.

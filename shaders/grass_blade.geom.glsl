@@ -8,6 +8,9 @@
 #include "common_visible.glsl"
 #include "common_shadow_projection.glsl"
 #include "common_strip_light.glsl"
+#include "common_leaf.glsl"
+#include "common_shadow_light.glsl"
+#include "plant_kind.glsl"
 
 layout(lines, invocations = SWARD_GROWTH_INVOCATIONS) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -30,12 +33,18 @@ layout(location = 5) flat out vec4 strip_self;    // base map coordinates below 
                                                   // -1 - shoot
 layout(location = 6) out vec4 strip_light;        // canopy_light: sky, sun; leaf_through; cosine for leaf_streak
 
+layout(location = 7) out vec3 strip_lit;          // the vertex's light in the eye, linear, without detail: of the shadow,
+                                                  // and of the leaf where SWARD_LIT_AT_VERTICES
+
 layout(location = 0) uniform int sward_species;
 
-// Thinner than this on screen, pixels, a strip is drawn this wide with less coverage.
+// Thinner than this on screen, pixels, a strip is drawn this wide with less coverage. Many samples show thinner ones.
 const float k_least_half_width_px = 0.6;
 
-float least_half_width(float distance) { return k_least_half_width_px * distance / frame.focal.y; }
+float least_half_width(float distance) {
+  float samples = max(frame.eye_noise.w, 1.0);
+  return k_least_half_width_px * inversesqrt(sqrt(samples)) * distance / frame.focal.y;
+}
 
 // One end of the segment: its middle, half the drawn width to one side, the share of it that is covered, the normal.
 struct Section {
@@ -56,6 +65,18 @@ struct Plant {
   float far;         // 0: blades can be told apart .. 1: they cannot, and have the ground's normal
 };
 
+// Of the shadow on ground of the plant's own colour.
+vec3 lit_shadow(int i, Plant plant, vec3 position) {
+  return shade_ground(line_color[i].rgb, plant.plane, position, shadow_light(plant.shadow));
+}
+
+vec3 lit_leaf(int i, Plant plant, vec3 position, float across, StripLight light, vec4 strip) {
+  SpeciesParams species = sward_layer.species[sward_species];
+  Leaf leaf = kind_leaf(species, line_color[i], int(line_fade[i].w + 0.5), line_point[i].w, across, line_map[i].w);
+  vec3 lit = strip_leaf(species, leaf, strip, light.gloss, light.normal);
+  return melt_into_ground(lit, line_color[i].rgb, vec4(plant.plane, line_fade[i].x), position);
+}
+
 void emit(int i, Plant plant, Section s, float across, vec3 normal) {
   vec3 position = s.middle + s.side * across;
   gl_Position = frame.clip_from_relative * vec4(position, 1.0);
@@ -63,12 +84,14 @@ void emit(int i, Plant plant, Section s, float across, vec3 normal) {
   strip_normal = vec4(normal, across);
   strip_cover = vec2(s.cover, 0.0);
   strip_light = vec4(0.0);
-  if (plant.shadow < 0.0) {
+  if (plant.shadow >= 0.0) strip_lit = lit_shadow(i, plant, position);
+  else {
     StripLight light = strip_light_at(sward_layer.species[sward_species].optics, normal, line_tangent[i].xyz,
                                       position, plant.plane, plant.far);
     strip_normal.xyz = light.normal;
     strip_cover.y = light.gloss;
     strip_light = vec4(s.canopy, light.through, light.along);
+    strip_lit = SWARD_LIT_AT_VERTICES == 1 ? lit_leaf(i, plant, position, across, light, strip_light) : vec3(0.0);
   }
   strip_color = line_color[i];
   strip_ground = vec4(plant.plane, line_fade[i].x);

@@ -4,6 +4,7 @@
 // Growth of grass, a vertex of the blade's middle line: bent, turned, scaled (Papavasiliou 2015, section 2.3).
 #include "common_layer.glsl"
 #include "common_blade.glsl"
+#include "common_outline.glsl"
 
 layout(isolines, fractional_odd_spacing) in;
 
@@ -30,6 +31,7 @@ const float k_edge_share = 0.35;
 
 // A blade's outline: broad at the base, pointed.
 float outline(float s) { return 1.0 - s * s * (0.55 + 0.45 * s); }
+const float k_mean_outline = 0.704;
 
 void main() {
   uint line = uint(gl_TessCoord.y * gl_TessLevelOuter[0] + 0.5);
@@ -47,7 +49,8 @@ void main() {
 
   vec3 point = root + blade_root[i].w * vec3(azimuth * p.along, p.up);
   line_point = vec4(point, s);
-  line_tangent = vec4(azimuth * sin(p.inclination), cos(p.inclination), form.x * (sward_images.w < 0.0 ? outline(s) : 1.0));
+  float width = sward_images.w < 0.0 ? outline(s) * outline_kept(1.0, 0.0, k_mean_outline, gl_TessLevelOuter[1]) : 1.0;
+  line_tangent = vec4(azimuth * sin(p.inclination), cos(p.inclination), form.x * width);
   line_plane = vec4(normal, blade_self[i].w);
   line_root = root;
   line_color = blade_color[i];

@@ -4,6 +4,7 @@
 // Growth of kinds made of shoots, a vertex of a shoot's middle line.
 #include "common_layer.glsl"
 #include "common_blade.glsl"
+#include "common_outline.glsl"
 #include "plant_kind.glsl"
 
 layout(isolines, fractional_odd_spacing) in;
@@ -40,6 +41,14 @@ float shoot_contact(int plant, int index) {
   return contact == 255u ? k_no_contact : float(contact) / 255.0;
 }
 
+// The kind's outline, a little wider where few segments would make it smaller.
+float drawn_outline(SpeciesParams species, int index, float s) {
+  float foot = kind_outline(species, index, 0.0), tip = kind_outline(species, index, 1.0);
+  float mean = (foot + 4.0 * kind_outline(species, index, 0.25) + 2.0 * kind_outline(species, index, 0.5) +
+                4.0 * kind_outline(species, index, 0.75) + tip) / 12.0;
+  return kind_outline(species, index, s) * outline_kept(foot, tip, mean, gl_TessLevelOuter[1]);
+}
+
 void main() {
   uint line = uint(gl_TessCoord.y * gl_TessLevelOuter[0] + 0.5);
   uint code = shoot_slots[line / 16u][(line / 4u) % 4u] >> (8u * (line % 4u)) & 255u;
@@ -60,7 +69,8 @@ void main() {
   float s = gl_TessCoord.x;
   BladePoint p = curve_point(curve, s);
 
-  float half_width = 0.5 * plant_form[plant].x * shoot.width * shown * (sward_images.w < 0.0 ? kind_outline(species, index, s) : 1.0);
+  float outline = sward_images.w < 0.0 ? drawn_outline(species, index, s) : 1.0;
+  float half_width = 0.5 * plant_form[plant].x * shoot.width * shown * outline;
   line_point = vec4(foot + plant_root[plant].w * shoot.height * vec3(azimuth * p.along, p.up), s);
   line_tangent = vec4(azimuth * sin(p.inclination), cos(p.inclination), half_width);
   line_plane = vec4(normal, plant_self[plant].w);

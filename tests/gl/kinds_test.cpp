@@ -324,10 +324,12 @@ TEST(KindShaders, AreStrictGlsl) {
     shaders.add_source("plant_kind.glsl", "#include \"" + functions + "\"\n");
     for (const std::string file :
          {"grow.vert.glsl", "grass_blade.tesc.glsl", "grass_blade.tese.glsl", "grass_blade.geom.glsl",
-          "grass_blade.frag.glsl", "shoot.vert.glsl", "shoot.tesc.glsl", "shoot.tese.glsl", "shoot.frag.glsl",
-          "flower_head.tesc.glsl", "flower_head.tese.glsl", "flower_head.geom.glsl", "flower_head.frag.glsl"}) {
+          "grass_blade.frag.glsl", "shoot.vert.glsl", "shoot.tesc.glsl", "shoot.tese.glsl", "flower_head.tesc.glsl",
+          "flower_head.tese.glsl", "flower_head.geom.glsl", "flower_head.frag.glsl"}) {
       const std::string stage = file.substr(file.find('.') + 1, 4);
-      const auto text = shaders.resolve(file, layer_defines(Layer(), {}));
+      std::vector<gl::Define> defines = layer_defines(Layer(), {});
+      defines.push_back({"SWARD_LIT_AT_VERTICES", "1"});
+      const auto text = shaders.resolve(file, defines);
       ASSERT_TRUE(text) << text.error().message;
       std::ofstream(path + stage) << text->text;
       EXPECT_EQ(std::system(("glslangValidator " + path + stage).c_str()), 0) << file << " with " << functions;

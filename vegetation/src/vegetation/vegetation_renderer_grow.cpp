@@ -18,7 +18,8 @@ constexpr GLint k_species_location = 0;
 struct KindProgram {
   PlantKind kind;
   const char *name, *vertex, *tess_control, *tess_evaluation, *geometry, *fragment;
-  /// For kinds made of shoots: the file of its functions (nullptr: the species names it), and the shoots of a plant.
+  /// The file of functions that its strips ask (nullptr: for kinds made of shoots the species names it, for others
+  /// there is none), and the shoots of a plant.
   bool of_shoots = false;
   const char* functions = nullptr;
   int (*shoots)(const Species& species) = nullptr;
@@ -27,16 +28,16 @@ struct KindProgram {
 };
 constexpr std::array<KindProgram, 10> k_kinds{{
     {PlantKind::blade, "grass_blade", "grow.vert.glsl", "grass_blade.tesc.glsl", "grass_blade.tese.glsl",
-     "grass_blade.geom.glsl", "grass_blade.frag.glsl"},
+     "grass_blade.geom.glsl", "grass_blade.frag.glsl", false, "kind_blade.glsl"},
     {PlantKind::tuft, "tuft", "shoot.vert.glsl", "shoot.tesc.glsl", "shoot.tese.glsl", "grass_blade.geom.glsl",
-     "shoot.frag.glsl", true, "kind_tuft.glsl", [](const Species& s) { return s.tuft.blades.max; }},
+     "grass_blade.frag.glsl", true, "kind_tuft.glsl", [](const Species& s) { return s.tuft.blades.max; }},
     {PlantKind::flower, "flower_stem", "shoot.vert.glsl", "shoot.tesc.glsl", "shoot.tese.glsl", "grass_blade.geom.glsl",
-     "shoot.frag.glsl", true, "kind_flower.glsl", [](const Species& s) { return 1 + s.flower.leaves; }},
+     "grass_blade.frag.glsl", true, "kind_flower.glsl", [](const Species& s) { return 1 + s.flower.leaves; }},
     {PlantKind::flower, "flower_head", "grow.vert.glsl", "flower_head.tesc.glsl", "flower_head.tese.glsl",
      "flower_head.geom.glsl", "flower_head.frag.glsl", false, nullptr, nullptr,
      [](const Species& s) { return s.flower.petals + 1; }},
     {PlantKind::custom, "custom", "shoot.vert.glsl", "shoot.tesc.glsl", "shoot.tese.glsl", "grass_blade.geom.glsl",
-     "shoot.frag.glsl", true, nullptr, [](const Species& s) { return s.custom.shoots; }},
+     "grass_blade.frag.glsl", true, nullptr, [](const Species& s) { return s.custom.shoots; }},
     {PlantKind::gravel, "gravel", "grow.vert.glsl", "gravel.tesc.glsl", "gravel.tese.glsl", "gravel.geom.glsl",
      "gravel.frag.glsl"},
     {PlantKind::leaf, "leaf", "grow.vert.glsl", "leaf.tesc.glsl", "leaf.tese.glsl", "leaf.geom.glsl", "leaf.frag.glsl"},
@@ -47,23 +48,26 @@ constexpr std::array<KindProgram, 10> k_kinds{{
      "billboard.geom.glsl", "billboard.frag.glsl"},
 }};
 
-/// The file of functions that a species' program is built with; empty for kinds that are not made of shoots.
+/// The file of functions that a species' program is built with; empty for kinds that are not made of strips.
 std::string functions_of(const KindProgram& kind, const Species& species) {
-  if (!kind.of_shoots) return {};
-  return kind.functions != nullptr ? kind.functions : species.custom.functions;
+  if (kind.functions != nullptr) return kind.functions;
+  return kind.of_shoots ? species.custom.functions : std::string();
 }
 
 Expected<gl::Program> build_program(const KindProgram& kind, const std::string& functions, const Layer& layer,
                                     const gl::ShaderLibrary& shaders, const gl::Bindings& bindings) {
   gl::ShaderLibrary library = shaders;
   if (!functions.empty()) library.add_source("plant_kind.glsl", "#include \"" + functions + "\"\n");
+  std::vector<gl::Define> defines = layer_defines(layer, bindings);
+  // A host's functions may change colour within a segment.
+  defines.push_back({"SWARD_LIT_AT_VERTICES", kind.kind == PlantKind::custom ? "0" : "1"});
   return library.build({.name = kind.name,
                         .vertex = kind.vertex,
                         .tess_control = kind.tess_control,
                         .tess_evaluation = kind.tess_evaluation,
                         .geometry = kind.geometry,
                         .fragment = kind.fragment,
-                        .defines = layer_defines(layer, bindings),
+                        .defines = std::move(defines),
                         .feedback_varyings = {}});
 }
 
