@@ -432,7 +432,7 @@ Layer casting() {
 }
 
 View above_slope() {
-  return View::look({8.0, -8.0, 7.0}, std::numbers::pi / 2, -0.5 * std::numbers::pi, 1.2, k_size, 0.05, 1000);
+  return View::look({8.0, -8.0, 7.0}, std::numbers::pi / 2, -0.5 * std::numbers::pi, 0.9, k_size, 0.05, 1000);
 }
 
 TEST_F(PlantShading, ShadowsLieOnSteepGround) {
