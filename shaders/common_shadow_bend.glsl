@@ -24,7 +24,7 @@ float rise_along(Triangle t, Seedling s, vec3 way) {
 }
 
 // Shadows shorter than this, pixels, lie on their plane.
-const float k_least_bend_px = 8.0;
+const float k_least_bend_px = 4.0;
 
 // Two slopes in one float, 12 bits each (unpack_bend); `reach`: height of what casts the shadow, metres.
 float shadow_bend(Triangle t, Seedling s, float reach) {
