@@ -98,5 +98,6 @@ vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   leaf.sun = sunny * mix(species.age_tint.w, 1.0, open * open);
   vec2 tilt = 1.2 * (vec2(fract(number * 53.0), fract(number * 97.0)) - 0.5);
   vec3 own = normalize(normal + vec3(tilt, 0.3 * (number - 0.5)));
+  leaf.sun *= body_light(part_ground.xyz);
   return shade_leaf(species, leaf, own, normalize(mix(own, part_ground.xyz, 0.8 * part_ground.w)), to_eye);
 }

@@ -25,11 +25,17 @@ Site site_at(Triangle t, vec2 point) {
   Site site;
   site.offset = offset_from_apex(t.to_left, t.to_right, point);
   site.altitude = altitude_at(t.altitude, point);
+#if SWARD_ON_MESH
+  site.encoded = vec4(surface_color(t.texel, t.texel_fraction, point), 1.0);
+  site.open = true;
+  return site;
+#else
   MapSample s = locate_texel(sward_layer.layer, t.texel, t.texel_fraction, site.offset);
   site.encoded = blend_texels(fetch_ground(s.texel), fetch_ground(s.texel + ivec2(1, 0)),
                               fetch_ground(s.texel + ivec2(0, 1)), fetch_ground(s.texel + ivec2(1, 1)), s.fraction);
   site.open = ground_is_open(s, site.encoded);
   return site;
+#endif
 }
 
 // Masks: two texels each tell the first texel, width, height; scale. The greys stand sixteen a texel.

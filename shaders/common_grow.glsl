@@ -29,6 +29,7 @@ struct Seedling {
   float distance;      // from the eye
   vec3 ground_normal;  // of the drawn surface
   vec2 map_uv;         // of the base map
+  vec3 own_color;      // of the surface below, sRGB; on meshes alone
   uint rank;
   Presence presence;
   PlantTraits traits;
@@ -92,5 +93,9 @@ Seedling grow_seed(FertileCluster fertile, Triangle triangle, Seedling s) {
   s.presence.grow *= share;
   s.map_uv = map_coordinates(triangle, s.offset);
   s.traits = make_traits(sward_layer.species[sward_species], frame_layer(), triangle.id, s.rank, fertile.score);
+#if SWARD_ON_MESH
+  s.own_color = surface_color(triangle.texel, triangle.texel_fraction, s.point);
+  s.traits = settle_traits(s.traits, triangle_normal(triangle.to_left, triangle.to_right));
+#endif
   return s;
 }

@@ -10,6 +10,7 @@
 //           own_d: centre's colour; stem's colour, negative: the ground's; leaves; width of petals
 //   leaf, fern  own_a: leaves
 //   billboard  own_a: bare share of the height, taper of the crown
+//   mesh    own_a: faces
 //   a host's own: its parameters
 
 // State of the sequence of a plant's part; parts of one plant are evenly spread.

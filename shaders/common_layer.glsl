@@ -8,6 +8,7 @@
 #include "common_classify.glsl"
 #include "common_placement.glsl"
 #include "common_plant.glsl"
+#include "common_surface.glsl"
 
 layout(std140, binding = SWARD_BINDING_SPECIES) uniform SwardSpecies {
   LayerParams layer;

@@ -21,6 +21,16 @@ struct LeafSun {
 // A blade is darker along its middle. `across`: -1..1.
 float leaf_vein(float across) { return 1.0 - 0.12 * exp(-12.0 * across * across); }
 
+// Share of the sun that comes to what grows on a surface: a body that plants cover all around stands between the sun and
+// those on its other side. On terrain all of it.
+float body_light(vec3 surface_normal) {
+#if SWARD_ON_MESH
+  return smoothstep(-0.25, 0.30, dot(surface_normal, frame.sun_direction.xyz));
+#else
+  return 1.0;
+#endif
+}
+
 // A blade at arc length `s`, `across` -1..1: the ground's colour, tinted towards the tip, older ones drier; one blade
 // differs from the next. In the open: the canopy's shade is the caller's.
 Leaf grass_leaf(SpeciesParams species, vec4 ground_and_age, float s, float across, float phase) {

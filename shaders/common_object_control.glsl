@@ -7,6 +7,7 @@
 #include "common_ground.glsl"
 #include "common_shadow_bend.glsl"
 #include "common_visible.glsl"
+#include "common_stance_control.glsl"
 
 layout(vertices = SWARD_CLUSTER_SIZE) out;
 
@@ -34,11 +35,13 @@ float object_parts(SpeciesParams species, float distance, float size_px);
 float size_px(float size, float distance) { return size * frame.focal.y / max(distance, 1.0e-3); }
 
 void write_object(Triangle triangle, Seedling s, vec2 size) {
+  vec3 color = root_color(sward_base_map, s);
+  s = take_stance(s);
   SpeciesParams species = sward_layer.species[sward_species];
   object_root[gl_InvocationID] = vec4(s.root, size.x);
   object_form[gl_InvocationID] = vec4(size.y, s.traits.stiffness, s.traits.azimuth, s.traits.lean);
   object_ground[gl_InvocationID] = vec4(s.ground_normal.xy, s.map_uv);
-  object_color[gl_InvocationID] = vec4(ground_albedo(sward_base_map, s.map_uv, s.root, s.ground_normal), s.traits.age);
+  object_color[gl_InvocationID] = vec4(color, s.traits.age);
   float parts = object_parts(species, s.distance, size_px(max(size.x, size.y), s.distance));
   object_self[gl_InvocationID] = vec4(s.distance, s.traits.phase, parts, shadow_bend(triangle, s, size.x));
 }

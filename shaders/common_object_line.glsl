@@ -4,6 +4,7 @@
 // Growth of single objects, tessellation evaluation: hands an object's numbers on with the place along its line; the
 // geometry stage makes the shape. The kind's file declares the spacing. GLSL only.
 #include "common_layer.glsl"
+#include "common_stance_line.glsl"
 
 layout(location = 0) in vec4 object_root[];
 layout(location = 1) in vec4 object_form[];
@@ -29,6 +30,7 @@ void hand_on() {
   vec3 normal = vec3(ground.xy, sqrt(max(1.0 - dot(ground.xy, ground.xy), 1.0e-4)));
   vec2 uv_per_m = sward_layer.layer.map.xy / sward_layer.layer.map.zw;
   float distance = object_self[i].x;
+  hand_on_stance();
   line_root = object_root[i];
   line_form = object_form[i];
   line_plane = vec4(normal, gl_TessCoord.x);

@@ -7,6 +7,7 @@
 #include "common_visible.glsl"
 #include "common_shadow_projection.glsl"
 #include "common_hash.glsl"
+#include "common_stance_shape.glsl"
 
 layout(location = 0) in vec4 line_root[];   // relative to the eye; height (m)
 layout(location = 1) in vec4 line_form[];   // width (m), stiffness, azimuth, lean
@@ -80,12 +81,13 @@ struct Part {
 };
 
 void emit(Object o, Part part, vec3 position, vec3 normal) {
-  gl_Position = frame.clip_from_relative * vec4(position, 1.0);
-  part_point = vec4(position, dot(o.plane, position - o.root));
-  part_normal = vec4(normal, part.extra);
+  vec3 seen = to_world(position);
+  gl_Position = frame.clip_from_relative * vec4(seen, 1.0);
+  part_point = vec4(seen, dot(o.plane, position - o.root));
+  part_normal = vec4(to_world(normal), part.extra);
   part_mask = vec4(part.mask, part.cover, part.number);
   part_color = line_color[0];
-  part_ground = vec4(o.plane, line_map[0].z);
+  part_ground = vec4(to_world(o.plane), line_map[0].z);
   part_self = vec4(line_map[0].xy, o.phase, part.what);
   EmitVertex();
 }

@@ -9,6 +9,7 @@
 #include "common_shadow_projection.glsl"
 #include "common_head.glsl"
 #include "common_strip_light.glsl"
+#include "common_stance_shape.glsl"
 
 layout(lines, invocations = SWARD_GROWTH_INVOCATIONS) in;
 layout(triangle_strip, max_vertices = 14) out;
@@ -95,7 +96,7 @@ vec3 head_point(Head head, vec3 p) {
 
 // Petals have no way along which they shine: the streak is a spot.
 void light_petal(Head head, vec3 normal, vec3 position) {
-  vec3 plane = petal_plane[0].xyz;
+  vec3 plane = to_world(petal_plane[0].xyz);
   float facing = dot(plane, frame.sun_direction.xyz);
   Canopy canopy = canopy_of(sward_layer.layer, head.species, facing);
   StripLight light = strip_light_at(head.species.optics, normal, vec3(0.0), position, plane, 0.0);
@@ -103,21 +104,22 @@ void light_petal(Head head, vec3 normal, vec3 position) {
   float up = dot(normalize(normal), half_way);
   strip_normal.xyz = light.normal;
   strip_cover.y = 0.3 * light.gloss;
-  strip_light = vec4(canopy_light(canopy, max(dot(plane, position - petal_root[0]), 0.0)), light.through,
+  strip_light = vec4(canopy_light(canopy, max(dot(plane, position - to_world(petal_root[0])), 0.0)), light.through,
                      sqrt(max(1.0 - up * up, 0.0)));
 }
 
 void emit(Head head, vec3 p, vec3 normal, float across, float cover, vec4 color) {
   vec3 position = head_point(head, p);
-  gl_Position = frame.clip_from_relative * vec4(position, 1.0);
+  vec3 seen = to_world(position);
+  gl_Position = frame.clip_from_relative * vec4(seen, 1.0);
   if (dot(normal, position) > 0.0) normal = -normal;
-  strip_point = vec4(position, length(p.xy));
-  strip_normal = vec4(normal, across);
+  strip_point = vec4(seen, length(p.xy));
+  strip_normal = vec4(to_world(normal), across);
   strip_cover = vec2(cover * head.cover, 0.0);
   strip_light = vec4(0.0);
-  if (head.shadow < 0.0) light_petal(head, normal, position);
+  if (head.shadow < 0.0) light_petal(head, to_world(normal), seen);
   strip_color = color;
-  strip_ground = vec4(petal_plane[0].xyz, 0.0);
+  strip_ground = vec4(to_world(petal_plane[0].xyz), 0.0);
   strip_self = vec4(petal_map[0].xyz, head.shadow);
   EmitVertex();
 }

@@ -7,6 +7,7 @@
 #include "common_worth.glsl"
 #include "common_blade.glsl"
 #include "common_head.glsl"
+#include "common_stance_control.glsl"
 #include "kind_flower.glsl"
 
 layout(vertices = SWARD_CLUSTER_SIZE) out;
@@ -21,11 +22,19 @@ layout(location = 4) out vec4 head_map[];    // base map coordinates below the e
 layout(location = 5) patch out uint head_slots[(SWARD_CLUSTER_SIZE + 3) / 4];  // plant of each line, 8 bits each
 layout(location = 13) out vec3 head_root[];  // relative to the eye
 
+vec3 upwards() {
+#if SWARD_ON_MESH
+  return vec3(0.0, 0.0, 1.0);
+#else
+  return frame.up.xyz;
+#endif
+}
+
 // Up, along the stem's end, a little aside, and towards a risen sun as far as the species turns to it.
 vec3 head_direction(SpeciesParams species, vec3 tangent, float turn) {
   vec3 sun = frame.sun_direction.xyz * (frame.sun_direction.w * species.posture.w);
   vec3 own = 0.3 * vec3(cos(turn), sin(turn), 0.0);
-  return normalize(0.8 * tangent + 0.45 * frame.up.xyz + own + 1.1 * sun);
+  return normalize(0.8 * tangent + 0.45 * upwards() + own + 1.1 * sun);
 }
 
 vec3 petal_linear(SpeciesParams species, uint state, float phase) {
@@ -46,6 +55,7 @@ vec3 above_ground(vec3 axis, vec3 normal, float freedom) {
 }
 
 void write_head(SpeciesParams species, Triangle triangle, Seedling s) {
+  s = take_stance(s);
   Shoot stem = kind_shoot(species, s.traits, 0);
   vec2 azimuth = vec2(cos(stem.azimuth), sin(stem.azimuth));
   vec3 normal = s.ground_normal;

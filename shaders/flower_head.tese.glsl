@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 // Growth of flowers' heads: hands a head to each of its petals.
+#include "common_stance_line.glsl"
+
 layout(isolines, equal_spacing) in;
 
 layout(location = 0) in vec4 head_place[];
@@ -23,6 +25,7 @@ layout(location = 6) out vec3 petal_root;
 void main() {
   uint line = uint(gl_TessCoord.y * gl_TessLevelOuter[0] + 0.5);
   uint i = head_slots[line / 4u] >> (8u * (line % 4u)) & 255u;
+  hand_on_stance();
   petal_place = head_place[i];
   petal_axis = head_axis[i];
   petal_plane = head_plane[i];

@@ -11,6 +11,7 @@
 #include "common_leaf.glsl"
 #include "common_shadow_light.glsl"
 #include "plant_kind.glsl"
+#include "common_stance_shape.glsl"
 
 layout(lines, invocations = SWARD_GROWTH_INVOCATIONS) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -74,27 +75,27 @@ vec3 lit_leaf(int i, Plant plant, vec3 position, float across, StripLight light,
   SpeciesParams species = sward_layer.species[sward_species];
   Leaf leaf = kind_leaf(species, line_color[i], int(line_fade[i].w + 0.5), line_point[i].w, across, line_map[i].w);
   vec3 lit = strip_leaf(species, leaf, strip, light.gloss, light.normal);
-  return melt_into_ground(lit, line_color[i].rgb, vec4(plant.plane, line_fade[i].x), position);
+  return melt_into_ground(lit, line_color[i].rgb, vec4(to_world(plant.plane), line_fade[i].x), position);
 }
 
 void emit(int i, Plant plant, Section s, float across, vec3 normal) {
-  vec3 position = s.middle + s.side * across;
+  vec3 position = to_world(s.middle + s.side * across);
   gl_Position = frame.clip_from_relative * vec4(position, 1.0);
   strip_point = vec4(position, line_point[i].w);
-  strip_normal = vec4(normal, across);
+  strip_normal = vec4(to_world(normal), across);
   strip_cover = vec2(s.cover, 0.0);
   strip_light = vec4(0.0);
   if (plant.shadow >= 0.0) strip_lit = lit_shadow(i, plant, position);
   else {
-    StripLight light = strip_light_at(sward_layer.species[sward_species].optics, normal, line_tangent[i].xyz,
-                                      position, plant.plane, plant.far);
+    StripLight light = strip_light_at(sward_layer.species[sward_species].optics, to_world(normal),
+                                      to_world(line_tangent[i].xyz), position, to_world(plant.plane), plant.far);
     strip_normal.xyz = light.normal;
     strip_cover.y = light.gloss;
     strip_light = vec4(s.canopy, light.through, light.along);
     strip_lit = SWARD_LIT_AT_VERTICES == 1 ? lit_leaf(i, plant, position, across, light, strip_light) : vec3(0.0);
   }
   strip_color = line_color[i];
-  strip_ground = vec4(plant.plane, line_fade[i].x);
+  strip_ground = vec4(to_world(plant.plane), line_fade[i].x);
   strip_self = vec4(line_map[i].xyw, plant.shadow);
   EmitVertex();
 }
@@ -137,11 +138,13 @@ Section blade_section(int i, Plant plant) {
 void emit_blade(Plant plant) {
   Section sections[2] = Section[2](blade_section(0, plant), blade_section(1, plant));
   SpeciesParams species = sward_layer.species[sward_species];
-  Canopy canopy = canopy_of(sward_layer.layer, species, dot(plant.plane, frame.sun_direction.xyz));
+  vec3 surface = to_world(plant.plane);
+  Canopy canopy = canopy_of(sward_layer.layer, species, dot(surface, frame.sun_direction.xyz));
   plant.far = strip_distance(line_fade[0].x, max(sections[0].cover, sections[1].cover));
   for (int i = 0; i < 2; ++i) {
     float height = max(dot(plant.plane, line_point[i].xyz - plant.root), 0.0);
     sections[i].canopy = field_light(species, canopy_light(canopy, height), plant.far);
+    sections[i].canopy.y *= body_light(surface);
   }
   emit_strip(plant, sections[0], sections[1], 0.5 + 0.6 * (plant.edge_share - 0.35));
 }

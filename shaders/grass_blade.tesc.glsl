@@ -7,6 +7,7 @@
 #include "common_ground.glsl"
 #include "common_shadow_bend.glsl"
 #include "common_worth.glsl"
+#include "common_stance_control.glsl"
 
 layout(vertices = SWARD_CLUSTER_SIZE) out;
 
@@ -22,10 +23,11 @@ layout(location = 5) patch out uint blade_slots[(SWARD_CLUSTER_SIZE + 3) / 4];  
 layout(binding = SWARD_BINDING_BASE_MAP) uniform sampler2D sward_base_map;
 
 void write_blade(Triangle triangle, Seedling s) {
+  vec3 color = root_color(sward_base_map, s);
+  s = take_stance(s);
   vec2 azimuth = vec2(cos(s.traits.azimuth), sin(s.traits.azimuth));
   float slope = -dot(s.ground_normal.xy, azimuth) / s.ground_normal.z;
   BladeCurve curve = free_curve(s.traits.stiffness, s.traits.lean, slope);
-  vec3 color = ground_albedo(sward_base_map, s.map_uv, s.root, s.ground_normal);
   float half_width = 0.5 * s.traits.width * s.presence.grow * s.presence.widen;
   blade_root[gl_InvocationID] = vec4(s.root, s.traits.height * s.presence.fade);
   blade_form[gl_InvocationID] = vec4(half_width, s.traits.stiffness, s.traits.azimuth, s.traits.lean);

@@ -5,6 +5,7 @@
 #include "common_layer.glsl"
 #include "common_blade.glsl"
 #include "common_outline.glsl"
+#include "common_stance_line.glsl"
 
 layout(isolines, fractional_odd_spacing) in;
 
@@ -48,6 +49,7 @@ void main() {
   BladePoint p = curve_point(curve, s);
 
   vec3 point = root + blade_root[i].w * vec3(azimuth * p.along, p.up);
+  hand_on_stance();
   line_point = vec4(point, s);
   float width = sward_images.w < 0.0 ? outline(s) * outline_kept(1.0, 0.0, k_mean_outline, gl_TessLevelOuter[1]) : 1.0;
   line_tangent = vec4(azimuth * sin(p.inclination), cos(p.inclination), form.x * width);

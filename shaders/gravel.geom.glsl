@@ -86,7 +86,7 @@ void emit_facet(Stone s, vec3 a, vec3 b, vec3 c) {
 // The ground next to the stone sees less of the sky.
 void emit_contact(Stone s) {
   float near = smoothstep(5.0, 14.0, pixels(s.object, s.object.width));
-  if (near <= 0.0) return;
+  if (near <= 0.0 || SWARD_ON_MESH > 0) return;
   float lift = 1.0 - object_shadow_plane(s.object).lift;
   for (int i = 0; i < 2; ++i) {
     float angle = 6.2831853 * (i == 0 ? s.object.first : s.object.second);

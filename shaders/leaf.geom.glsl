@@ -63,7 +63,7 @@ void emit_leaf(Object o, Frond f, Section a, Section b) {
   for (int i = 0; i < 2; ++i) {
     Section at = i == 0 ? a : b;
     vec3 side = leaf_side(f, at);
-    vec3 half_way = normalize(normalize(-at.middle) + frame.sun_direction.xyz);
+    vec3 half_way = normalize(normalize(-at.middle) + from_world(frame.sun_direction.xyz));
     vec3 normal = cross(at.tangent, f.flat_side);
     normal *= normal.z < 0.0 ? -1.0 : 1.0;
     for (int edge = -1; edge < 2; edge += 2) {

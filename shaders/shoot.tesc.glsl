@@ -7,6 +7,7 @@
 #include "common_worth.glsl"
 #include "common_blade.glsl"
 #include "common_ground.glsl"
+#include "common_stance_control.glsl"
 #include "plant_kind.glsl"
 
 layout(vertices = SWARD_CLUSTER_SIZE) out;
@@ -45,12 +46,13 @@ uvec3 find_contacts(SpeciesParams species, Seedling s, float shown) {
 }
 
 void write_plant(SpeciesParams species, Triangle triangle, Seedling s) {
+  vec3 color = root_color(sward_base_map, s);
+  s = take_stance(s);
   float ratio = s.distance / sward_layer.layer.detail.x;
   s.traits.height *= s.presence.fade;
   vec2 shoots = kind_shoots(species, s.traits, ratio);
   float shown = clamp(shoots.x, 0.0, float(SWARD_MOST_SHOOTS));
   s.traits.width *= s.presence.grow * s.presence.widen * shoots.y;
-  vec3 color = ground_albedo(sward_base_map, s.map_uv, s.root, s.ground_normal);
   plant_root[gl_InvocationID] = vec4(s.root, s.traits.height);
   plant_form[gl_InvocationID] = vec4(s.traits.width, s.traits.stiffness, s.traits.azimuth, s.traits.lean);
   plant_ground[gl_InvocationID] = vec4(s.ground_normal.xy, s.map_uv);

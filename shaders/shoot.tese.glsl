@@ -5,6 +5,7 @@
 #include "common_layer.glsl"
 #include "common_blade.glsl"
 #include "common_outline.glsl"
+#include "common_stance_line.glsl"
 #include "plant_kind.glsl"
 
 layout(isolines, fractional_odd_spacing) in;
@@ -72,6 +73,7 @@ void main() {
   float outline = sward_images.w < 0.0 ? drawn_outline(species, index, s) : 1.0;
   float half_width = 0.5 * plant_form[plant].x * shoot.width * shown * outline;
   line_point = vec4(foot + plant_root[plant].w * shoot.height * vec3(azimuth * p.along, p.up), s);
+  hand_on_stance();
   line_tangent = vec4(azimuth * sin(p.inclination), cos(p.inclination), half_width);
   line_plane = vec4(normal, plant_self[plant].w);
   line_root = root;

@@ -16,6 +16,10 @@ Expected<SceneFrame> SceneFrame::create(std::span<const Layer> layers, const Sce
   for (size_t i = 0; i < layers.size(); ++i) {
     if (auto valid = validate(layers[i]); !valid) return tl::unexpected(valid.error());
     if (auto loaded = require_maps(layers[i]); !loaded) return tl::unexpected(loaded.error());
+    frame.layers_[i].mesh = terrain.mesh_of(layers[i].name);
+    if (layers[i].on_mesh != (frame.layers_[i].mesh != nullptr))
+      return fail("layer '" + layers[i].name +
+                  "': on_mesh must be set where a surface names the layer, and only there");
     frame.set_layer(i, layers[i]);
   }
   return frame;
@@ -61,20 +65,32 @@ uint32_t SceneFrame::cut_triangles(const View& view) {
     // What stands upright shows its tips over the edge of ground that has just turned away: leaving that out pops.
     options.skip_back_faces = each.layer.plain;
     options.altitudes = needs_altitudes(each.layer);
-    mesh_.fixed_level_triangles(options, each.triangles);
+    if (each.mesh) {
+      options.skip_back_faces = true;
+      each.mesh->fixed_level_triangles(view, each.layer.triangle_area_m2, options, each.triangles);
+    } else {
+      mesh_.fixed_level_triangles(options, each.triangles);
+    }
     count += uint32_t(each.triangles.size());
   }
   return count;
 }
 
 void SceneFrame::seed_triangles(const View& view, const ColorMap& colors) {
-  for (LayerFrame& each : layers_) seed(each.layer, view, colors, each.triangles, each.seeding, &exclusions_);
+  for (LayerFrame& each : layers_) {
+    if (each.mesh)
+      seed(each.layer, view, *each.mesh, each.triangles, each.seeding);
+    else
+      seed(each.layer, view, colors, each.triangles, each.seeding, &exclusions_);
+  }
 }
 
 std::vector<Plant> SceneFrame::plants(const View& view, const ColorMap& colors, float sun_azimuth) const {
   std::vector<Plant> all;
   for (const LayerFrame& each : layers_) {
-    std::vector<Plant> grown = grow_plants(each.layer, view, colors, each.triangles, each.seeding, sun_azimuth);
+    std::vector<Plant> grown = each.mesh
+                                   ? grow_plants(each.layer, view, each.triangles, each.seeding)
+                                   : grow_plants(each.layer, view, colors, each.triangles, each.seeding, sun_azimuth);
     for (Plant& plant : grown) plant.species += each.first_species;
     all.insert(all.end(), grown.begin(), grown.end());
   }

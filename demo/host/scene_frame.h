@@ -19,6 +19,7 @@ namespace sward::host {
 struct LayerFrame {
   Layer layer;
   int level = 0;               ///< Seeding level.
+  std::shared_ptr<const MeshSurface> mesh;  ///< That it stands on; null: the terrain.
   uint32_t first_species = 0;  ///< Species of the layers before it: plants of all layers are numbered in one row.
   FixedTriangles triangles;
   Seeding seeding;

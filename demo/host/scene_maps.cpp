@@ -3,7 +3,10 @@
 
 #include "host/scene_maps.h"
 
+#include <sward/scene/generated_mesh.h>
 #include <map>
+
+#include "host/scene_surfaces.h"
 
 #ifdef SWARD_IMAGE_IO
 #include <sward/image_io/image_io.h>
@@ -90,6 +93,15 @@ Expected<void> fill_mask(const std::string& file, const Scene& scene, Masks& kno
   return {};
 }
 
+Expected<void> fill_plant_mesh(const Scene& scene, Species& species) {
+  PlantMesh& plant = species.mesh;
+  if (species.kind != PlantKind::mesh || plant.mesh) return {};
+  auto mesh = plant.file.empty() ? generate_plant_shape(plant.shape) : load_mesh_file(scene.resolve(plant.file));
+  if (!mesh) return tl::unexpected(mesh.error());
+  plant.mesh = std::make_shared<const TriangleMesh>(std::move(*mesh));
+  return {};
+}
+
 }  // namespace
 
 Expected<void> load_maps(Scene& scene) {
@@ -101,6 +113,7 @@ Expected<void> load_maps(Scene& scene) {
       if (auto filled = fill_mask(species.mask_file, scene, masks, species.mask); !filled) return filled;
     for (Species& species : layer.species)
       if (auto filled = fill_images(scene, images, species); !filled) return filled;
+      if (auto filled = fill_plant_mesh(scene, species); !filled) return filled;
     if (layer.distribution_file.empty()) continue;
     auto colors = load_map(scene.resolve(layer.distribution_file));
     if (!colors) return tl::unexpected(colors.error());

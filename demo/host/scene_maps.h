@@ -6,7 +6,7 @@
 
 namespace sward::host {
 
-/// Loads the masks, distribution maps and plants' images that the scene's layers name; details that are built in are
+/// Loads the masks, distribution maps and plants' images and meshes that the scene's layers name; details that are built in are
 /// made. Each file is read once. Fails naming the file, and for plants' images the scene's line.
 Expected<void> load_maps(Scene& scene);
 

@@ -26,6 +26,7 @@ struct Programs {
   TerrainRenderer terrain;
   Sky sky;
   std::vector<VegetationRenderer> vegetation;
+  std::vector<MeshRenderer> meshes;  // bodies of the layers on meshes
 };
 
 // The library with the functions of the layers' own kinds, as their files are now. A name that is no file is left to
@@ -47,17 +48,22 @@ Expected<gl::ShaderLibrary> with_kinds(gl::ShaderLibrary shaders, const std::vec
   return shaders;
 }
 
-Expected<Programs> build_programs(const std::vector<Layer>& layers, const gl::ShaderLibrary& shaders,
-                                  const gl::Bindings& bindings) {
+Expected<Programs> build_programs(const std::vector<Layer>& layers, const SceneTerrain& ground,
+                                  const gl::ShaderLibrary& shaders, const gl::Bindings& bindings) {
   auto terrain = TerrainRenderer::create(shaders, bindings);
   if (!terrain) return tl::unexpected(terrain.error());
   auto sky = Sky::create(shaders, bindings);
   if (!sky) return tl::unexpected(sky.error());
-  Programs programs{std::move(*terrain), std::move(*sky), {}};
+  Programs programs{std::move(*terrain), std::move(*sky), {}, {}};
   for (const Layer& layer : layers) {
     auto vegetation = VegetationRenderer::create(layer, shaders, bindings);
     if (!vegetation) return tl::unexpected(vegetation.error());
     programs.vegetation.push_back(std::move(*vegetation));
+    const auto surface = ground.mesh_of(layer.name);
+    if (!surface) continue;
+    auto body = MeshRenderer::create(*surface, layer, shaders, bindings);
+    if (!body) return tl::unexpected(body.error());
+    programs.meshes.push_back(std::move(*body));
   }
   return programs;
 }
@@ -158,7 +164,7 @@ Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTer
   if (!ground) return tl::unexpected(ground.error());
   auto library = with_kinds(shaders, scene.layers, scene.directory);
   if (!library) return tl::unexpected(library.error());
-  auto programs = build_programs(scene.layers, *library, bindings);
+  auto programs = build_programs(scene.layers, terrain, *library, bindings);
   if (!programs) return tl::unexpected(programs.error());
   const bool timed = gpu_can_time();
   return SceneRenderer(std::unique_ptr<Impl>(new Impl{
@@ -182,6 +188,7 @@ Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighti
   self.frame.upload(view, lighting, time_s, samples);
   self.terrain_timer.begin();
   self.programs.terrain.draw(view, self.frame, self.ground);
+  for (MeshRenderer& body : self.programs.meshes) body.draw(view, self.frame);
   self.terrain_timer.end();
   if (self.sky_on) self.programs.sky.draw(self.frame);
   if (self.vegetation_on) {
@@ -237,7 +244,7 @@ Exclusions& SceneRenderer::exclusions() {
 Expected<void> SceneRenderer::reload(const gl::ShaderLibrary& shaders) {
   auto library = with_kinds(shaders, impl_->layers, impl_->directory);
   if (!library) return tl::unexpected(library.error());
-  auto programs = build_programs(impl_->layers, *library, impl_->bindings);
+  auto programs = build_programs(impl_->layers, impl_->terrain, *library, impl_->bindings);
   if (!programs) return tl::unexpected(programs.error());
   impl_->programs = std::move(*programs);
   impl_->shaders = std::move(*library);

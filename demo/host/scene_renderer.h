@@ -5,6 +5,7 @@
 #include <sward/scene/scene.h>
 #include <sward/terrain/roam_mesh.h>
 #include <sward/terrain_gl/terrain_renderer.h>
+#include <sward/vegetation/mesh_renderer.h>
 #include <sward/vegetation/vegetation_renderer.h>
 #include <memory>
 #include <optional>

@@ -204,6 +204,18 @@ SceneTerrain::SceneTerrain(HeightField field, ColorMap colors, const Progress& p
 SceneTerrain::SceneTerrain(std::unique_ptr<World> world, ColorMap colors)
     : world_(std::move(world)), surface_(world_.get()), colors_(std::move(colors)) {}
 
+std::shared_ptr<const MeshSurface> SceneTerrain::mesh_of(const std::string& layer) const {
+  const auto found = surfaces_.by_layer.find(layer);
+  return found == surfaces_.by_layer.end() ? nullptr : found->second;
+}
+
+Expected<void> SceneTerrain::add_surfaces(const Scene& scene) {
+  auto built = build_surfaces(scene, surface());
+  if (!built) return tl::unexpected(built.error());
+  surfaces_ = std::move(*built);
+  return {};
+}
+
 Expected<gl::GroundTextures> SceneTerrain::make_textures() const {
   return field_ ? gl::GroundTextures::create(field_->field, colors_) : gl::GroundTextures::create(*surface_, colors_);
 }
@@ -212,6 +224,7 @@ Expected<std::unique_ptr<SceneTerrain>> load_terrain(const Scene& scene, bool de
   auto terrain = scene.world_path.empty() ? make_field(scene, detail, progress) : open_world(scene);
   if (!terrain) return terrain;
   if (auto checked = check_camera(scene, **terrain); !checked) return tl::unexpected(checked.error());
+  if (auto added = (*terrain)->add_surfaces(scene); !added) return tl::unexpected(added.error());
   return terrain;
 }
 

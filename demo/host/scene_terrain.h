@@ -10,6 +10,8 @@
 #include <sward/terrain/world.h>
 #include <memory>
 
+#include "host/scene_surfaces.h"
+
 namespace sward::host {
 
 /// A scene's ground in memory, a height field with its bounds or a world, and its base map: what needs no GL. Stays
@@ -26,6 +28,12 @@ class SceneTerrain {
   const ColorMap& colors() const { return colors_; }
   /// What has to be followed by views (WorldStream); null where all of the ground is there from the start.
   World* world() const { return world_.get(); }
+  /// What a layer with Layer::on_mesh covers; null for others.
+  std::shared_ptr<const MeshSurface> mesh_of(const std::string& layer) const;
+  /// What is odd about the scene's meshes, a line each.
+  const std::vector<std::string>& warnings() const { return surfaces_.warnings; }
+  /// Builds the scene's surfaces on this ground.
+  Expected<void> add_surfaces(const Scene& scene);
   /// Needs a context.
   Expected<gl::GroundTextures> make_textures() const;
 
@@ -39,6 +47,7 @@ class SceneTerrain {
   std::unique_ptr<FieldSurface> field_surface_;
   const Surface* surface_ = nullptr;
   ColorMap colors_;
+  SceneSurfaces surfaces_;
 };
 
 /// Generates, loads or opens what the scene names. `detail` false switches the relief below the data off. A height map

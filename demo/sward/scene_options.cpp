@@ -4,6 +4,7 @@
 #include "sward/scene_options.h"
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 #include "sward/arguments.h"
@@ -185,7 +186,11 @@ Expected<void> check_wait(const Scene& scene, bool wait) {
 
 Expected<std::unique_ptr<host::SceneTerrain>> make_terrain(const Scene& scene, const SceneOptions& options) {
   ProgressLine line("terrain");
-  return host::load_terrain(scene, options.detail == "on", line.callback());
+  auto terrain = host::load_terrain(scene, options.detail == "on", line.callback());
+  if (!terrain) return terrain;
+  for (const std::string& warning : (*terrain)->warnings())
+    std::fprintf(stderr, "sward: warning: %s\n", warning.c_str());
+  return terrain;
 }
 
 gl::Lighting make_lighting(const Scene& scene) {

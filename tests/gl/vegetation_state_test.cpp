@@ -76,7 +76,8 @@ void expect_draw_leaves_what_it_says(const Layer& layer, int samples) {
   const gl::Bindings& bindings = patch.frame().bindings();
   GlState left =
       left_by_stage(bindings, {bindings.base_map, bindings.base_map_raw, bindings.triangles, bindings.surface,
-                               bindings.exclusions, bindings.placement, bindings.blade_shape, bindings.plant_images});
+                               bindings.exclusions, bindings.placement, bindings.blade_shape, bindings.plant_images,
+                               bindings.plant_mesh});
   left["patch vertices"] = {1};
   expect_only_changed(before, capture_state(), left);
   EXPECT_GT(patch.renderer().stats(true).primitives, 0u);

@@ -595,7 +595,7 @@ TEST(Scene, BuiltInScenesAreSound) {
   EXPECT_EQ(puget->height_scale, 0.1);
   const auto missing = builtin_scene("moon");
   ASSERT_FALSE(missing);
-  EXPECT_NE(missing.error().message.find("\"moon\", expected one of \"border\", \"flowers\", \"meadow\", \"puget\""),
+  EXPECT_NE(missing.error().message.find("\"moon\", expected one of \"border\", \"flowers\", \"garden\", "),
             std::string::npos)
       << missing.error().message;
 }
@@ -631,6 +631,8 @@ TEST(Scene, ThePageDescribesEveryKey) {
   expect_described(scene_file::sun_schema(), page);
   expect_described(scene_file::haze_schema(), page);
   expect_described(scene_file::camera_schema(), page);
+  expect_described(scene_file::surface_schema(), page);
+  expect_described(scene_file::plant_mesh_schema(), page);
   expect_described(scene_file::layer_schema(), page);
   expect_described(scene_file::species_schema(), page);
   expect_described(scene_file::tuft_schema(), page);

@@ -98,8 +98,10 @@ Expected<std::vector<Plant>> plants_in_region(const Scene& scene, const host::Sc
   std::vector<Plant> all;
   uint32_t first_species = 0;
   for (const Layer& layer : scene.layers) {
-    auto grown = query_plants(layer, terrain.surface(), terrain.colors(), region,
-                              {options.most - std::min(options.most, all.size()), &exclusions, scene.sun_azimuth});
+    const PlantQueryOptions query{options.most - std::min(options.most, all.size()), &exclusions, scene.sun_azimuth};
+    const auto mesh = terrain.mesh_of(layer.name);
+    auto grown = mesh ? query_plants(layer, *mesh, region, query)
+                      : query_plants(layer, terrain.surface(), terrain.colors(), region, query);
     if (!grown) return tl::unexpected(grown.error());
     for (Plant& plant : *grown) plant.species += first_species;
     first_species += uint32_t(layer.species.size());

@@ -17,6 +17,7 @@ std::vector<Define> binding_defines(const Bindings& bindings) {
       {"SWARD_BINDING_SURFACE", std::to_string(bindings.surface)},
       {"SWARD_BINDING_BLADE_SHAPE", std::to_string(bindings.blade_shape)},
       {"SWARD_BINDING_PLANT_IMAGES", std::to_string(bindings.plant_images)},
+      {"SWARD_BINDING_PLANT_MESH", std::to_string(bindings.plant_mesh)},
       {"SWARD_BINDING_PLACEMENT", std::to_string(bindings.placement)},
       {"SWARD_BINDING_EXCLUSIONS", std::to_string(bindings.exclusions)},
   };

@@ -21,43 +21,44 @@ struct DoubleTraits : OpenMesh::DefaultTraits {
 };
 using PolygonMesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
 
-std::vector<glm::dvec3> world_corners(const PolygonMesh& mesh, const glm::dmat4& world_from_mesh) {
-  std::vector<glm::dvec3> corners;
-  corners.reserve(mesh.n_faces() * 3);
-  for (const auto face : mesh.faces()) {
-    for (const auto vertex : mesh.fv_range(face)) {
-      const auto& p = mesh.point(vertex);
-      corners.emplace_back(world_from_mesh * glm::dvec4(p[0], p[1], p[2], 1.0));
-    }
+TriangleMesh to_arrays(const PolygonMesh& mesh, bool colors) {
+  TriangleMesh arrays;
+  for (const auto vertex : mesh.vertices()) {
+    const auto& p = mesh.point(vertex);
+    arrays.positions.emplace_back(p[0], p[1], p[2]);
+    if (!colors) continue;
+    const auto& c = mesh.color(vertex);
+    arrays.colors.emplace_back(c[0], c[1], c[2]);
   }
-  return corners;
+  for (const auto face : mesh.faces())
+    for (const auto vertex : mesh.fv_range(face)) arrays.indices.push_back(uint32_t(vertex.idx()));
+  return arrays;
 }
 
-Expected<PolygonMesh> read(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return fail(path + ": no such mesh file");
+Expected<TriangleMesh> read(const std::string& path) {
   PolygonMesh mesh;
+  mesh.request_vertex_colors();
   ::omerr().disable();
   ::omlog().disable();
-  try {
-    if (!OpenMesh::IO::read_mesh(mesh, path)) {
-      return fail(path + ": cannot be read as a mesh; OBJ, PLY and OFF files are understood");
-    }
-  } catch (const std::exception& e) {
-    return fail(path + ": cannot be read as a mesh: " + e.what());
+  OpenMesh::IO::Options options(OpenMesh::IO::Options::VertexColor);
+  if (!OpenMesh::IO::read_mesh(mesh, path, options)) {
+    return fail(path + ": cannot be read as a mesh; OBJ, PLY and OFF files are understood");
   }
   mesh.triangulate();
-  return mesh;
+  if (mesh.n_faces() == 0) return fail(path + ": the mesh has no faces; export triangles or polygons");
+  return to_arrays(mesh, options.vertex_has_color());
 }
 
 }  // namespace
 
-Expected<MeshSource> MeshSource::load(const std::string& path, const glm::dmat4& world_from_mesh) {
-  auto mesh = read(path);
-  if (!mesh) return tl::unexpected(mesh.error());
-  auto source = from_corners(world_corners(*mesh, world_from_mesh));
-  if (!source) return fail(path + ": " + source.error().message);
-  return source;
+Expected<TriangleMesh> load_mesh(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return fail(path + ": no such mesh file");
+  try {
+    return read(path);
+  } catch (const std::exception& e) {
+    return fail(path + ": cannot be read as a mesh: " + e.what());
+  }
 }
 
 }  // namespace sward

@@ -316,11 +316,15 @@ Expected<void> check_custom(const toml::table& table, const CustomKind&, const C
 /// Tables of a kind stand only with that kind; a custom one needs its.
 Expected<void> check_kind_tables(const toml::table& table, const Species& species, const Context& context) {
   const std::pair<const char*, PlantKind> owners[] = {
-      {"tuft", PlantKind::tuft}, {"flower", PlantKind::flower}, {"custom", PlantKind::custom}};
+      {"tuft", PlantKind::tuft}, {"flower", PlantKind::flower}, {"custom", PlantKind::custom}, {"mesh", PlantKind::mesh}};
   for (const auto& [name, kind] : owners) {
     if (species.kind == kind) continue;
     const std::string because = "on another kind, expected only with kind = \"" + std::string(name) + "\"";
     if (auto fits = refuse(table, {name}, because, context); !fits) return fits;
+  }
+  if (species.kind == PlantKind::mesh && !table.contains("mesh")) {
+    return context.fail_at(table, "species \"" + species.name +
+                                      "\" has no mesh, expected [layer.species.mesh] with file = \"FILE\" or shape");
   }
   if (species.kind == PlantKind::custom && !table.contains("custom")) {
     return context.fail_at(table, "species \"" + species.name +
@@ -451,6 +455,10 @@ Expected<void> check_layer(const toml::table& table, const Layer& layer, const C
     const std::string because = "under law = \"world_area\", expected only with distance or screen_area";
     if (auto fits = refuse(table, {"falloff"}, because, context); !fits) return fits;
   }
+  if (layer.on_mesh) {
+    const std::string because = "on meshes, where plants cast no planar shadows";
+    if (auto fits = refuse(table, {"shadows", "shadow_distance_m"}, because, context); !fits) return fits;
+  }
   if (!layer.shadows) {
     const std::string because = "with shadows = false";
     if (auto fits = refuse(table, {"shadow_distance_m"}, because, context); !fits) return fits;
@@ -470,6 +478,7 @@ Expected<void> check_scene(const toml::table& table, const Scene& scene, const C
     if (!shape.layer.empty() && std::none_of(scene.layers.begin(), scene.layers.end(), named))
       return context.fail_at(*table.get("exclude"), "there is no layer \"" + shape.layer + "\" to exclude");
   }
+  if (auto covered = check_surfaces(table, scene, context); !covered) return covered;
   return refuse_same_names(table, "layer", context);
 }
 
@@ -581,7 +590,8 @@ const Schema<Species>& species_schema() {
                              {"leaf", PlantKind::leaf},
                              {"fern", PlantKind::fern},
                              {"litter", PlantKind::litter},
-                             {"billboard", PlantKind::billboard}}),
+                             {"billboard", PlantKind::billboard},
+                             {"mesh", PlantKind::mesh}}),
        hex_color_key(),
        hsv_key(),
        weights_key(),
@@ -612,6 +622,7 @@ const Schema<Species>& species_schema() {
        table<S, TuftShape>("tuft", &S::tuft, tuft_schema()),
        table<S, FlowerShape>("flower", &S::flower, flower_schema()),
        table<S, CustomKind>("custom", &S::custom, custom_schema()),
+       table<S, PlantMesh>("mesh", &S::mesh, plant_mesh_schema()),
        min_max_angle("slope_deg", &S::slope, within(0, 90)),
        angle("slope_soft_deg", &S::slope_soft, within(0, 90)),
        min_max("altitude_m", &S::altitude_m, any_number(), "metres"),
@@ -680,7 +691,7 @@ const Schema<Layer>& layer_schema() {
        number("density", &L::density, above(0), "plants a square metre or a unit of screen area"),
        number("full_distance_m", &L::full_distance_m, above(0), "metres"),
        number("falloff", &L::falloff, above_to(0, 16)), whole_number("ceiling", &L::ceiling, within(1, 1048576)),
-       flag("plain", &L::plain), number("full_segments_m", &L::full_segments_m, above(0), "metres"),
+       flag("plain", &L::plain), flag("on_mesh", &L::on_mesh), number("full_segments_m", &L::full_segments_m, above(0), "metres"),
        flag("shadows", &L::shadows), number("shadow_distance_m", &L::shadow_distance_m, at_least(0), "metres"),
        number("water_level_m", &L::water_level_m, any_number(), "metres"),
        text("mask", &L::mask_file, "the path of an image"),
@@ -697,7 +708,8 @@ const Schema<Scene>& scene_schema() {
        section("base_map", base_map_schema()), section("sun", sun_schema()), section("haze", haze_schema()),
        section("camera", camera_schema()), tables<Scene, Layer>("layer", &Scene::layers, layer_schema()),
        section("season", season_schema()),
-       tables<Scene, ExclusionShape>("exclude", &Scene::exclusions, exclude_schema())},
+       tables<Scene, ExclusionShape>("exclude", &Scene::exclusions, exclude_schema()),
+       tables<Scene, SceneSurface>("surface", &Scene::surfaces, surface_schema())},
       check_scene};
   return schema;
 }

@@ -25,5 +25,9 @@ const Schema<SeasonFrame>& species_season_schema();
 const Schema<Scene>& season_schema();
 const Schema<GroundSeason>& ground_season_schema();
 const Schema<ExclusionShape>& exclude_schema();
+const Schema<SceneSurface>& surface_schema();
+const Schema<PlantMesh>& plant_mesh_schema();
+/// Surfaces and layers on meshes name each other.
+Expected<void> check_surfaces(const toml::table& table, const Scene& scene, const Context& context);
 
 }  // namespace sward::scene_file

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vegetation/plant_mesh.h"
+
 namespace sward {
 
 namespace {
@@ -109,6 +111,8 @@ void set_own(const Species& s, shared::SpeciesParams& params) {
     params.own_a = {float(s.leaves), 0.0f, 0.0f, 0.0f};
   } else if (s.kind == PlantKind::billboard) {
     params.own_a = {s.trunk_share, s.taper, 0.0f, 0.0f};
+  } else if (s.kind == PlantKind::mesh) {
+    params.own_a = {float(face_count(s.mesh)), 0.0f, 0.0f, 0.0f};
   } else if (s.kind == PlantKind::flower) {
     set_flower(s.flower, params);
   } else if (s.kind == PlantKind::custom) {

@@ -21,7 +21,7 @@ using Ground = PlantGround;
 
 vec4 fetch(const Ground& ground, ivec2 texel) {
   const ivec2 at = clamp_texel(ground.layer, texel);
-  return vec4(ground.map.texels[size_t(at.y) * size_t(ground.map.width) + size_t(at.x)]) / 255.0f;
+  return vec4(ground.map->texels[size_t(at.y) * size_t(ground.map->width) + size_t(at.x)]) / 255.0f;
 }
 
 /// A place on a triangle, as classification sees it.
@@ -36,6 +36,11 @@ Site site_at(const Ground& ground, const TriangleRecord& t, vec2 point) {
   Site site;
   site.offset = offset_from_apex(t.to_left, t.to_right, point);
   site.altitude = altitude_at(t.altitude, point);
+  if (ground.map == nullptr) {
+    site.encoded = vec4(surface_color(t.texel, t.texel_fraction, point), 1.0f);
+    site.open = true;
+    return site;
+  }
   const MapSample s = locate_texel(ground.layer, t.texel, t.texel_fraction, site.offset);
   site.encoded = blend_texels(fetch(ground, s.texel), fetch(ground, s.texel + ivec2(1, 0)),
                               fetch(ground, s.texel + ivec2(0, 1)), fetch(ground, s.texel + ivec2(1, 1)), s.fraction);
@@ -163,8 +168,12 @@ class Grower {
     if (!(presence.fade > 0.0f)) return;
     const float share = seed_share(species, point, cluster.z, turning, rank);
     if (!(share > 0.0f)) return;
-    const PlantTraits traits = make_traits(species, ground_.layer, id_, rank, choice.score);
+    PlantTraits traits = make_traits(species, ground_.layer, id_, rank, choice.score);
     Plant& plant = plants_.emplace_back();
+    if (ground_.map == nullptr) {
+      plant.axis = triangle_normal(record_.to_left, record_.to_right);
+      traits = settle_traits(traits, plant.axis);
+    }
     plant.triangle = triangle_.id;
     plant.rank = rank;
     plant.species = uint32_t(choice.species);
@@ -189,10 +198,14 @@ class Grower {
 
 }  // namespace
 
+PlantGround make_mesh_ground(const Layer& layer, const View& view) {
+  return {nullptr, make_layer_params(layer, view, {}, 0.0f), make_species_params(layer), {}, {}, {}};
+}
+
 PlantGround make_plant_ground(const Layer& layer, const View& view, const ColorMap& map, float sun_azimuth,
                               std::span<const glm::vec4> exclusions) {
   const MapGeometry geometry = classification_map(layer, geometry_of(map));
-  PlantGround ground{layer.distribution ? *layer.distribution : map,
+  PlantGround ground{layer.distribution ? layer.distribution.get() : &map,
                      make_layer_params(layer, view, geometry, sun_azimuth),
                      make_species_params(layer),
                      masks_of(layer),

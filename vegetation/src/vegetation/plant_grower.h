@@ -13,13 +13,14 @@ namespace sward {
 
 /// One layer over one map, as the shaders' uniforms and textures have it. Keeps references to all that it is made from.
 struct PlantGround {
-  const ColorMap& map;  ///< The distribution map, where the layer has one.
+  const ColorMap* map;  ///< The distribution map, where the layer has one; null: a mesh, whose records carry colours.
   shared::LayerParams layer;
   std::vector<shared::SpeciesParams> species;
   std::vector<const GrayMap*> masks;
   std::vector<glm::vec2> mask_scales;
   std::span<const glm::vec4> exclusions;  ///< Seeding::exclusions.
 };
+PlantGround make_mesh_ground(const Layer& layer, const View& view);
 PlantGround make_plant_ground(const Layer& layer, const View& view, const ColorMap& map, float sun_azimuth,
                               std::span<const glm::vec4> exclusions);
 

@@ -13,9 +13,9 @@ double surface_height(const FixedTriangles& triangles, const FixedTriangle& tria
   return triangle.apex.z + double(walk_surface(triangles, triangle.surface, z_offset, walk));
 }
 
-std::vector<Plant> grow_plants(const Layer& layer, const View& view, const ColorMap& map,
-                               const FixedTriangles& triangles, const Seeding& seeding, float sun_azimuth) {
-  const PlantGround ground = make_plant_ground(layer, view, map, sun_azimuth, seeding.exclusions);
+namespace {
+
+std::vector<Plant> grow_seeding(const PlantGround& ground, const FixedTriangles& triangles, const Seeding& seeding) {
   std::vector<Plant> plants;
   for (const DensityBin& bin : seeding.bins) {
     for (uint32_t i = bin.first; i < bin.first + bin.triangles; ++i) {
@@ -24,6 +24,19 @@ std::vector<Plant> grow_plants(const Layer& layer, const View& view, const Color
     }
   }
   return plants;
+}
+
+}  // namespace
+
+std::vector<Plant> grow_plants(const Layer& layer, const View& view, const ColorMap& map,
+                               const FixedTriangles& triangles, const Seeding& seeding, float sun_azimuth) {
+  return grow_seeding(make_plant_ground(layer, view, map, sun_azimuth, seeding.exclusions), triangles, seeding);
+}
+
+std::vector<Plant> grow_plants(const Layer& layer, const View& view, const FixedTriangles& triangles,
+                               const Seeding& seeding) {
+  SWARD_ASSERT(layer.on_mesh, "a layer on terrain grows by a base map");
+  return grow_seeding(make_mesh_ground(layer, view), triangles, seeding);
 }
 
 }  // namespace sward

@@ -117,6 +117,20 @@ void settle(const Surface& surface, const PlantRegion& region, std::vector<Plant
   plants.resize(kept);
 }
 
+Expected<void> check_query(const Layer& layer, const PlantRegion& region) {
+  if (auto valid = validate(layer); !valid) return valid;
+  if (auto loaded = require_maps(layer); !loaded) return loaded;
+  return check_region(region);
+}
+
+/// Every seed of a triangle.
+uint32_t all_clusters(const Layer& layer, TriangleRecord& record, float area) {
+  record.limit = full_limit(layer, area);
+  record.submitted = uint32_t(std::ceil(record.limit));
+  const auto size = uint32_t(layer.cluster_size);
+  return (record.submitted + size - 1) / size;
+}
+
 }  // namespace
 
 bool PlantRegion::contains(glm::dvec2 place) const {
@@ -127,9 +141,8 @@ bool PlantRegion::contains(glm::dvec2 place) const {
 
 Expected<std::vector<Plant>> query_plants(const Layer& layer, const Surface& surface, const ColorMap& map,
                                           const PlantRegion& region, const PlantQueryOptions& options) {
-  if (auto valid = validate(layer); !valid) return tl::unexpected(valid.error());
-  if (auto loaded = require_maps(layer); !loaded) return tl::unexpected(loaded.error());
-  if (auto checked = check_region(region); !checked) return tl::unexpected(checked.error());
+  if (auto checked = check_query(layer, region); !checked) return tl::unexpected(checked.error());
+  SWARD_ASSERT(!layer.on_mesh, "the plants of a layer on a mesh are asked for with its MeshSurface");
   const double seeds_a_triangle = std::max(double(full_limit(layer, layer.triangle_area_m2)), 1.0);
   const double most = k_seeds_a_plant * double(options.most_plants) / seeds_a_triangle + 16.0;
   FixedTriangles triangles;
@@ -158,12 +171,35 @@ Expected<std::vector<Plant>> query_plants(const Layer& layer, const Surface& sur
       run.emplace_back(0.0f);
     }
     ground.exclusions = run;
-    record.limit = full_limit(layer, triangles.area()[i]);
-    record.submitted = uint32_t(std::ceil(record.limit));
-    const auto size = uint32_t(layer.cluster_size);
+    const uint32_t clusters = all_clusters(layer, record, triangles.area()[i]);
     const size_t first = plants.size();
-    grow_triangle(ground, triangles, i, record, (record.submitted + size - 1) / size, SeedDistance::near, plants);
+    grow_triangle(ground, triangles, i, record, clusters, SeedDistance::near, plants);
     settle(surface, region, plants, first);
+    if (plants.size() > options.most_plants) return tl::unexpected(too_many(options));
+  }
+  return plants;
+}
+
+Expected<std::vector<Plant>> query_plants(const Layer& layer, const MeshSurface& surface, const PlantRegion& region,
+                                          const PlantQueryOptions& options) {
+  if (auto checked = check_query(layer, region); !checked) return tl::unexpected(checked.error());
+  SWARD_ASSERT(layer.on_mesh, "the plants of a layer on terrain are asked for with its Surface");
+  FixedTriangles triangles;
+  surface.all_triangles(layer.triangle_area_m2, triangles);
+  const PlantGround ground = make_mesh_ground(layer, View());
+  const RecordMaker maker(layer, surface);
+  std::vector<Plant> plants;
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    const glm::dvec2 apex(triangles.apex()[i]);
+    const glm::dvec2 left = apex + glm::dvec2(triangles.to_left()[i]),
+                     right = apex + glm::dvec2(triangles.to_right()[i]);
+    if (!overlaps(region, {apex, left, right})) continue;
+    TriangleRecord record = maker.make(triangles, i);
+    const uint32_t clusters = all_clusters(layer, record, triangles.area()[i]);
+    const size_t first = plants.size();
+    grow_triangle(ground, triangles, i, record, clusters, SeedDistance::near, plants);
+    const auto outside = [&](const Plant& plant) { return !region.contains(glm::dvec2(plant.position)); };
+    plants.erase(std::remove_if(plants.begin() + std::ptrdiff_t(first), plants.end(), outside), plants.end());
     if (plants.size() > options.most_plants) return tl::unexpected(too_many(options));
   }
   return plants;

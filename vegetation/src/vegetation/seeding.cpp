@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "vegetation/exclusion_index.h"
 #include "vegetation/fertile_ground.h"
@@ -185,12 +186,16 @@ bool barren(FertileGround& ground, const TexelPlaces& places, const FixedTriangl
                        places(apex + glm::dvec2(triangles.to_right()[i])));
 }
 
-/// Seeds of every triangle; their smallest and largest number goes to n_min and n_max.
-void count_seeds(const Layer& layer, const View& view, const ColorMap& map, const FixedTriangles& triangles,
+/// Seeds of every triangle; their smallest and largest number goes to n_min and n_max. Without a map (on meshes) all
+/// ground is fertile.
+void count_seeds(const Layer& layer, const View& view, const ColorMap* map, const FixedTriangles& triangles,
                  Seeding& out) {
-  if (!out.scratch.ground) out.scratch.ground = std::make_shared<FertileGround>();
-  out.scratch.ground->follow(layer, map);
-  const TexelPlaces places(layer, map);
+  std::optional<TexelPlaces> places;
+  if (map != nullptr) {
+    if (!out.scratch.ground) out.scratch.ground = std::make_shared<FertileGround>();
+    out.scratch.ground->follow(layer, *map);
+    places.emplace(layer, *map);
+  }
   const float zoom = float(view.zoom());
   const float full = layer.law == DensityLaw::distance ? layer.density : 0.0f;
   uint32_t least = UINT32_MAX, most = 0;
@@ -201,7 +206,7 @@ void count_seeds(const Layer& layer, const View& view, const ColorMap& map, cons
     const uint32_t submitted = limit > 0.0f ? uint32_t(std::ceil(std::min(limit, k_most_seeds))) : 0u;
     out.counts[i] = {full > 0.0f ? area[i] * full : limit, submitted, 0, 0};
     if (submitted == 0) continue;
-    if (barren(*out.scratch.ground, places, triangles, i) ||
+    if ((places && barren(*out.scratch.ground, *places, triangles, i)) ||
         (!out.scratch.index->empty() && excluded(triangles, i, out))) {
       out.counts[i].submitted = 0;
       continue;
@@ -291,8 +296,10 @@ std::array<float, k_density_bins> bin_edges(float n_min, float n_max) {
   return edges;
 }
 
-void seed(const Layer& layer, const View& view, const ColorMap& map, const FixedTriangles& triangles, Seeding& out,
-          const Exclusions* exclusions) {
+namespace {
+
+void seed_triangles(const Layer& layer, const View& view, const RecordMaker& maker, const ColorMap* map,
+                    const FixedTriangles& triangles, const Exclusions* exclusions, Seeding& out) {
   out.bins = {};
   out.clusters = 0;
   out.surface_z_origin = triangles.surface_z();
@@ -302,7 +309,6 @@ void seed(const Layer& layer, const View& view, const ColorMap& map, const Fixed
   count_seeds(layer, view, map, triangles, out);
   if (out.n_max == 0.0f) return;
   lay_out_bins(layer, out);
-  const RecordMaker maker(layer, map);
   std::array<uint32_t, k_density_bins> next{};
   for (int i = 0; i < k_density_bins; ++i) next[i] = out.bins[i].first;
   sort_by_distance(triangles, out);
@@ -311,6 +317,20 @@ void seed(const Layer& layer, const View& view, const ColorMap& map, const Fixed
     out.records[place] = make_record(maker, view, triangles, i, out.counts[i]);
     out.source[place] = i;
   }
+}
+
+}  // namespace
+
+void seed(const Layer& layer, const View& view, const ColorMap& map, const FixedTriangles& triangles, Seeding& out,
+          const Exclusions* exclusions) {
+  SWARD_ASSERT(!layer.on_mesh, "a layer on a mesh is seeded with its MeshSurface");
+  seed_triangles(layer, view, RecordMaker(layer, map), &map, triangles, exclusions, out);
+}
+
+void seed(const Layer& layer, const View& view, const MeshSurface& surface, const FixedTriangles& triangles,
+          Seeding& out) {
+  SWARD_ASSERT(layer.on_mesh, "a layer on terrain is seeded with its base map");
+  seed_triangles(layer, view, RecordMaker(layer, surface), nullptr, triangles, nullptr, out);
 }
 
 }  // namespace sward

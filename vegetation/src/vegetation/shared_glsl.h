@@ -32,6 +32,7 @@ inline uvec2 mul_wide(uint a, uint b) {
 #include "common_philox.glsl"
 #include "common_placement.glsl"
 #include "common_plant.glsl"
+#include "common_surface.glsl"
 #include "common_kinds.glsl"
 #include "common_seed.glsl"
 #undef SWARD_FN

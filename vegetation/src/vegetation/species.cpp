@@ -9,6 +9,8 @@
 #include <sstream>
 #include <tuple>
 
+#include "vegetation/plant_mesh.h"
+
 namespace sward {
 
 namespace {
@@ -72,7 +74,7 @@ class Check {
 };
 
 void check_classification(const Species& species, Check& check) {
-  check.require(species.kind <= PlantKind::billboard, "kind is none that is known");
+  check.require(species.kind <= PlantKind::mesh, "kind is none that is known");
   check.within("reference_hsv[0]", species.reference_hsv.x, 0.0f, std::nextafter(1.0f, 0.0f));
   check.within("reference_hsv[1]", species.reference_hsv.y, 0.0f, 1.0f);
   check.within("reference_hsv[2]", species.reference_hsv.z, 0.0f, 1.0f);
@@ -164,10 +166,17 @@ void check_custom(const CustomKind& custom, Check& check) {
                  std::numeric_limits<float>::max());
 }
 
+void check_plant_mesh(const PlantMesh& plant, Check& check) {
+  check.require(plant.mesh || !plant.file.empty() || !plant.shape.empty(), "mesh: there is none; kind mesh needs one");
+  const std::string fault = fault_of(plant);
+  check.require(fault.empty(), "mesh " + (plant.file.empty() ? std::string() : "\"" + plant.file + "\" ") + fault);
+}
+
 void check_kind(const Species& species, Check& check) {
   if (species.kind == PlantKind::tuft) check_tuft(species.tuft, check);
   if (species.kind == PlantKind::flower) check_flower(species.flower, check);
   if (species.kind == PlantKind::custom) check_custom(species.custom, check);
+  if (species.kind == PlantKind::mesh) check_plant_mesh(species.mesh, check);
 }
 
 /// A range whose bounds may be missing (infinite); NaN is refused.
@@ -225,6 +234,19 @@ void check_maps(const Layer& layer, Check& check) {
     check.require(false, "distribution: " + valid.error().message);
 }
 
+/// What is placed by the base map or the horizon does not go with surfaces of any direction.
+void check_mesh(const Layer& layer, Check& check) {
+  if (!layer.on_mesh) return;
+  check.require(!layer.mask && layer.mask_file.empty(), "mask is set, which a layer on a mesh cannot have");
+  check.require(!layer.distribution && layer.distribution_file.empty(),
+                "distribution is set, which a layer on a mesh cannot have; give the mesh colours");
+  for (const Species& species : layer.species) {
+    const std::string owner = "species '" + species.name + "': ";
+    check.require(!species.mask && species.mask_file.empty(), owner + "mask is set, which no plant on a mesh can have");
+    check.require(species.phototropism == 0.0f, owner + "phototropism must be 0 on a mesh, where plants hang down");
+  }
+}
+
 Expected<void> check_layer(const Layer& layer, const std::string& owner) {
   Check check(owner);
   check.require(!layer.species.empty(), "species: there is none; a layer needs at least one");
@@ -244,6 +266,7 @@ Expected<void> check_layer(const Layer& layer, const std::string& owner) {
   check.finite_above("full_segments_m", layer.full_segments_m, 0.0f);
   check.finite_from("shadow_distance_m", layer.shadow_distance_m, 0.0f);
   check_maps(layer, check);
+  check_mesh(layer, check);
   if (layer.law == DensityLaw::distance) {
     check.above("density times triangle_area_m2 (seeds a triangle)", layer.density * layer.triangle_area_m2, 0.0f,
                 k_most_seeds);
@@ -284,6 +307,8 @@ Expected<void> require_maps(const Layer& layer) {
       return missing(": species '" + species.name + "'", "detail", species.detail_file.path);
     if (!species.cutout && !species.cutout_file.path.empty())
       return missing(": species '" + species.name + "'", "cutout", species.cutout_file.path);
+    if (species.kind == PlantKind::mesh && !species.mesh.mesh)
+      return missing(": species '" + species.name + "'", "mesh", species.mesh.file + species.mesh.shape);
   }
   return {};
 }

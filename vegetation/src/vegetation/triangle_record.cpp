@@ -23,6 +23,13 @@ float slope_of(float area, glm::vec2 to_left, glm::vec2 to_right) {
   return float(std::acos(std::clamp(horizontal / double(area), 0.0, 1.0)));
 }
 
+/// Layout: shaders/common_surface.glsl. 24 bits are exact in a float.
+void carry_colors(const std::array<glm::u8vec3, 3>& colors, TriangleRecord& record) {
+  const auto packed = [](glm::u8vec3 c) { return int(c.r) << 16 | int(c.g) << 8 | int(c.b); };
+  record.texel = {packed(colors[0]), packed(colors[1])};
+  record.texel_fraction = {float(packed(colors[2])), 0.0f};
+}
+
 }  // namespace
 
 RecordMaker::RecordMaker(const Layer& layer, const ColorMap& map)
@@ -30,6 +37,9 @@ RecordMaker::RecordMaker(const Layer& layer, const ColorMap& map)
       size_(map.size),
       texels_(classification_map(layer, geometry_of(map)).texels),
       slopes_(std::any_of(layer.species.begin(), layer.species.end(), asks_for_slope)) {}
+
+RecordMaker::RecordMaker(const Layer& layer, const MeshSurface& surface)
+    : surface_(&surface), slopes_(std::any_of(layer.species.begin(), layer.species.end(), asks_for_slope)) {}
 
 /// Whole texel and fraction of an apex; far outside the map the whole texel saturates, where everything is outside.
 void RecordMaker::locate_apex(glm::dvec3 apex, TriangleRecord& record) const {
@@ -50,7 +60,10 @@ TriangleRecord RecordMaker::make(const FixedTriangles& triangles, size_t i) cons
   record.id_high = id.high();
   record.to_right = triangles.to_right()[i];
   record.surface = triangles.surface()[i];
-  locate_apex(triangles.apex()[i], record);
+  if (surface_ != nullptr)
+    carry_colors(surface_->piece_colors(id), record);
+  else
+    locate_apex(triangles.apex()[i], record);
   if (slopes_) record.slope = slope_of(triangles.area()[i], glm::vec2(record.to_left), glm::vec2(record.to_right));
   record.altitude = triangles.altitude()[i];
   for (int corner = 0; corner < 3; ++corner)

@@ -49,7 +49,8 @@ std::vector<gl::Define> layer_defines(const Layer& layer, const gl::Bindings& bi
   defines.push_back({"SWARD_MOST_SHOOTS", std::to_string(k_most_shoots)});
   defines.push_back({"SWARD_SHOOTS_PER_PATCH", std::to_string(shoots_per_patch(layer))});
   // The second invocation of the geometry shader is the shadow.
-  defines.push_back({"SWARD_GROWTH_INVOCATIONS", layer.shadows ? "2" : "1"});
+  defines.push_back({"SWARD_GROWTH_INVOCATIONS", layer.shadows && !layer.on_mesh ? "2" : "1"});
+  defines.push_back({"SWARD_ON_MESH", layer.on_mesh ? "1" : "0"});
   return defines;
 }
 

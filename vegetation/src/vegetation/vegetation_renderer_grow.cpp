@@ -5,6 +5,7 @@
 #include <sward/vegetation/blade_shape.h>
 #include <algorithm>
 
+#include "vegetation/plant_mesh.h"
 #include "vegetation/vegetation_renderer_stages.h"
 
 namespace sward {
@@ -26,7 +27,7 @@ struct KindProgram {
   /// Points that the tessellator makes of one line; nullptr: by segments.
   int (*points)(const Species& species) = nullptr;
 };
-constexpr std::array<KindProgram, 10> k_kinds{{
+constexpr std::array<KindProgram, 11> k_kinds{{
     {PlantKind::blade, "grass_blade", "grow.vert.glsl", "grass_blade.tesc.glsl", "grass_blade.tese.glsl",
      "grass_blade.geom.glsl", "grass_blade.frag.glsl", false, "kind_blade.glsl"},
     {PlantKind::tuft, "tuft", "shoot.vert.glsl", "shoot.tesc.glsl", "shoot.tese.glsl", "grass_blade.geom.glsl",
@@ -46,6 +47,9 @@ constexpr std::array<KindProgram, 10> k_kinds{{
      "litter.frag.glsl"},
     {PlantKind::billboard, "billboard", "grow.vert.glsl", "billboard.tesc.glsl", "billboard.tese.glsl",
      "billboard.geom.glsl", "billboard.frag.glsl"},
+    {PlantKind::mesh, "mesh_plant", "grow.vert.glsl", "mesh_plant.tesc.glsl", "mesh_plant.tese.glsl",
+     "mesh_plant.geom.glsl", "mesh_plant.frag.glsl", false, nullptr, nullptr,
+     [](const Species& s) { return face_count(s.mesh) / 8 + 2; }},
 }};
 
 /// The file of functions that a species' program is built with; empty for kinds that are not made of strips.
@@ -140,9 +144,18 @@ Expected<void> GrowthStage::add_species(const Layer& layer, const Species& speci
       program_names_.push_back(name);
     }
     passes.push_back({row, GLsizei(instances_of(kind, layer, species)), part_of(kind, layer, species),
-                      glGetUniformLocation(programs_[row].id(), "sward_images")});
+                      glGetUniformLocation(programs_[row].id(), "sward_images"), add_mesh(species)});
   }
   return {};
+}
+
+GLuint GrowthStage::add_mesh(const Species& species) {
+  if (species.kind != PlantKind::mesh) return 0;
+  const std::vector<glm::vec4> texels = make_mesh_texels(species.mesh);
+  gl::Buffer& buffer = mesh_buffers_.emplace_back(make_buffer(texels.size() * sizeof(glm::vec4), texels.data(), 0));
+  gl::Texture& texture = meshes_.emplace_back(gl::create_texture(GL_TEXTURE_BUFFER));
+  glTextureBuffer(texture.id(), GL_RGBA32F, buffer.id());
+  return texture.id();
 }
 
 void GrowthStage::draw(const Pass& pass, const FeedbackPass& feedback, int stream, uint32_t fertile) const {
@@ -165,7 +178,8 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
                              {units.exclusions, inputs.triangles.exclusions()},
                              {units.placement, inputs.placement.masks()},
                              {units.blade_shape, blade_shape_.id()},
-                             {units.plant_images, image_array_.texture()}});
+                             {units.plant_images, image_array_.texture()},
+                             {units.plant_mesh, 0}});
   glPatchParameteri(GL_PATCH_VERTICES, 1);
   glBindVertexArray(vertex_array_.id());
   for (size_t i = 0; i < classified.places().size(); ++i) {
@@ -175,6 +189,7 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
     for (const Pass& each : passes_[size_t(place.species)]) {
       const GLuint program = programs_[each.program].id();
       glUseProgram(program);
+      if (each.mesh != 0) glBindTextureUnit(units.plant_mesh, each.mesh);
       glProgramUniform1i(program, k_species_location, place.species);
       if (each.images >= 0) glProgramUniform4fv(program, each.images, 1, &images_[size_t(place.species)].x);
       draw(each, pass, place.stream, draws_in_parts_ ? fertile[i] : 0);

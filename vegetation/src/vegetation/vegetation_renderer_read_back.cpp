@@ -27,9 +27,11 @@ TriangleId id_of(const TriangleRecord& record) {
   return {uint64_t(record.id_high) << 32 | record.id_low};
 }
 
-Plant to_plant(const CapturedPlant& captured, int species, const View& view, const Seeding& seeding) {
+Plant to_plant(const CapturedPlant& captured, int species, const View& view, const Seeding& seeding, bool on_mesh) {
+  const TriangleRecord& record = seeding.records[captured.record];
   Plant plant;
-  plant.triangle = id_of(seeding.records[captured.record]);
+  plant.triangle = id_of(record);
+  if (on_mesh) plant.axis = shared::triangle_normal(record.to_left, record.to_right);
   plant.rank = captured.rank;
   plant.species = uint32_t(species);
   plant.position = view.eye + glm::dvec3(captured.root);
@@ -66,6 +68,7 @@ Expected<ReadBackStage> ReadBackStage::create(const Layer& layer, const gl::Shad
   stage.feedback_ = gl::create_feedback();
   stage.framebuffer_ = make_empty_framebuffer();
   stage.cluster_size_ = layer.cluster_size;
+  stage.on_mesh_ = layer.on_mesh;
   return stage;
 }
 
@@ -115,7 +118,7 @@ std::vector<Plant> ReadBackStage::run(const StageInputs& inputs, const Classific
   std::sort(found.begin(), found.end(), [&](const FoundPlant& a, const FoundPlant& b) { return key(a) < key(b); });
   std::vector<Plant> plants;
   plants.reserve(found.size());
-  for (const FoundPlant& each : found) plants.push_back(to_plant(each.captured, each.species, view, seeding));
+  for (const FoundPlant& each : found) plants.push_back(to_plant(each.captured, each.species, view, seeding, on_mesh_));
   return plants;
 }
 

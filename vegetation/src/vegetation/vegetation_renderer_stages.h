@@ -104,14 +104,18 @@ class GrowthStage {
     GLsizei instances;  ///< Of each patch.
     GLsizei part;       ///< Most clusters in a draw, where draws go in parts.
     GLint images;       ///< Location of sward_images; -1: the program reads none.
+    GLuint mesh = 0;    ///< Texture of its own mesh, 0: none.
   };
   Expected<void> add_species(const Layer& layer, const Species& species, const gl::ShaderLibrary& shaders,
                              const gl::Bindings& bindings);
+  GLuint add_mesh(const Species& species);
   void draw(const Pass& pass, const FeedbackPass& feedback, int stream, uint32_t fertile) const;
 
   std::vector<gl::Program> programs_;
   std::vector<std::string> program_names_;  ///< What each was built of: species of the same share it.
   std::vector<std::vector<Pass>> passes_;   ///< By species.
+  std::vector<gl::Buffer> mesh_buffers_;
+  std::vector<gl::Texture> meshes_;  ///< One a species of kind mesh.
   gl::Buffer blade_shape_buffer_;
   gl::Texture blade_shape_;
   PlantImageArray image_array_;
@@ -135,6 +139,7 @@ class ReadBackStage {
   gl::Feedback feedback_;
   gl::Framebuffer framebuffer_;
   int cluster_size_ = 1;
+  bool on_mesh_ = false;
 };
 
 /// For drawing without a picture: no attachments, 1 x 1.

@@ -23,6 +23,7 @@ struct Bindings {
   GLuint surface = 4;       ///< RGBA32UI buffer texture: surface nodes
   GLuint blade_shape = 5;   ///< RGBA32F blade shapes
   GLuint plant_images = 6;  ///< R8 array: details and cutouts of a layer's plants
+  GLuint plant_mesh = 13;   ///< RGBA32F buffer texture: the mesh of a plant
   GLuint placement = 14;    ///< RGBA32UI buffer texture: masks
   GLuint exclusions = 15;   ///< RGBA32F buffer texture: excluded shapes near triangles
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,21 @@ struct GroundSeason {
 
 /// The factor at a time of the year, between frames as season_values(); 1 without frames.
 glm::vec3 ground_tint(std::span<const GroundSeason> frames, float season);
+
+/// A body that a layer with Layer::on_mesh covers: a file's mesh or a generated one (generate_mesh_shape).
+struct SceneSurface {
+  std::string layer;            ///< Name of the layer that covers it.
+  std::string shape;            ///< "box_hedge", "topiary"; or empty, and
+  std::string mesh_path;        ///< an OBJ, PLY or OFF file.
+  glm::vec3 size_m{1.0f};       ///< Of a shape.
+  uint32_t seed = 1;            ///< Of a shape.
+  glm::dvec3 position{0.0};     ///< Of the mesh's origin.
+  bool above_ground = true;     ///< position.z counts from the ground below the origin.
+  bool drape = false;           ///< It counts from the ground below each vertex.
+  double yaw = 0;               ///< Radians, counter-clockwise.
+  double scale = 1;
+  std::optional<glm::vec3> color;  ///< sRGB, 0..1, in place of the vertex colours.
+};
 
 /// A scene as a TOML file names it. Paths are kept as written; resolve() makes them relative to the file's folder.
 struct Scene {
@@ -62,6 +78,9 @@ struct Scene {
 
   // [[layer]] with [[layer.species]]. Masks and distribution maps are named, not loaded.
   std::vector<Layer> layers;
+
+  // [[surface]]
+  std::vector<SceneSurface> surfaces;
 
   // [[exclude]]
   std::vector<ExclusionShape> exclusions;

@@ -18,6 +18,8 @@ struct Plant {
   float azimuth = 0;                           ///< Direction of bending, radians: 0 east, counter-clockwise.
   float score = 0;                             ///< s' of equation 18.
   float fade = 0;                              ///< 0..1: growing in, sinking.
+  glm::vec3 axis{0, 0, 1};  ///< Along which it grows, unit: world up on terrain, the surface's normal on a mesh, where
+                            ///< azimuth counts from downhill, and counter-clockwise seen against the axis.
 };
 
 /// All plants with fade > 0 of a seeded layer, in the order bins, triangles, ranks. Needs no GL context. The seeding
@@ -25,6 +27,10 @@ struct Plant {
 /// phototropic species ask for it. Cost: one look at the map a cluster and one a seed that is shown. Any thread.
 std::vector<Plant> grow_plants(const Layer& layer, const View& view, const ColorMap& map,
                                const FixedTriangles& triangles, const Seeding& seeding, float sun_azimuth = 0.0f);
+
+/// The same for a layer on a mesh, whose colours the seeding holds.
+std::vector<Plant> grow_plants(const Layer& layer, const View& view, const FixedTriangles& triangles,
+                               const Seeding& seeding);
 
 /// A part of the world seen from above: a rectangle, or a disc.
 struct PlantRegion {
@@ -52,6 +58,10 @@ struct PlantQueryOptions {
 /// thread, while the surface does not change.
 Expected<std::vector<Plant>> query_plants(const Layer& layer, const Surface& surface, const ColorMap& map,
                                           const PlantRegion& region, const PlantQueryOptions& options = {});
+
+/// The plants of a layer on a mesh whose roots lie below or above a region, at full density. As query_plants else.
+Expected<std::vector<Plant>> query_plants(const Layer& layer, const MeshSurface& surface, const PlantRegion& region,
+                                          const PlantQueryOptions& options = {});
 
 /// Drawn surface z (world) at the point `to_left * a + to_right * b` from the apex, a, b >= 0, a + b <= 1.
 double surface_height(const FixedTriangles& triangles, const FixedTriangle& triangle, float a, float b);

@@ -5,6 +5,7 @@
 #include <sward/terrain/color_map.h>
 #include <sward/terrain/fixed_triangles.h>
 #include <sward/terrain/view.h>
+#include <sward/vegetation/mesh_surface.h>
 #include <sward/vegetation/placement.h>
 #include <sward/vegetation/species.h>
 #include <array>
@@ -23,7 +24,8 @@ struct TriangleRecord {
   glm::vec3 to_right{0};
   uint32_t surface = 0;         ///< Root node in the surface buffer, 0: flat.
   glm::ivec2 texel{0};          ///< Base-map texel of the apex, integer part (floor) of (u width, v height) ...
-  glm::vec2 texel_fraction{0};  ///< ... and the rest; offsets in metres are scaled by LayerParams::map.
+  glm::vec2 texel_fraction{0};  ///< ... and the rest; offsets in metres are scaled by LayerParams::map. On meshes both
+                                ///< hold colours instead (shaders/common_surface.glsl).
   float limit = 0;         ///< distance law: area * rho0, the seeds at full density; else: the triangle's seed count n.
   float slope = 0;         ///< Of the data, radians, where a species asks for it; static.
   float surface_z = 0;     ///< Add to SurfaceNode::z to get z relative to the eye.
@@ -95,5 +97,10 @@ std::array<float, k_density_bins> bin_edges(float n_min, float n_max);
 /// thread.
 void seed(const Layer& layer, const View& view, const ColorMap& map, const FixedTriangles& triangles, Seeding& out,
           const Exclusions* exclusions = nullptr);
+
+/// The same for a layer on a mesh (Layer::on_mesh, asserted), whose `triangles` that mesh wrote. Excluded shapes are
+/// places on the ground: they do not reach it.
+void seed(const Layer& layer, const View& view, const MeshSurface& surface, const FixedTriangles& triangles,
+          Seeding& out);
 
 }  // namespace sward

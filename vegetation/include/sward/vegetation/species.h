@@ -28,6 +28,7 @@ enum class PlantKind : uint32_t {
   fern,       ///< A rosette of fronds.
   litter,     ///< A dead leaf or a twig, flat on the ground.
   billboard,  ///< A shrub or a tree: a trunk and clusters of leaves that face the eye.
+  mesh,       ///< A small mesh with a height coordinate: Species::mesh.
 };
 
 struct FloatRange {
@@ -73,6 +74,18 @@ struct CustomKind {
 struct PlantImageFile {
   std::string path;   ///< Of an image, or one of built_in_details(); empty: none.
   std::string place;  ///< Where it says so, for messages: "FILE:LINE".
+};
+
+struct TriangleMesh;  // mesh_surface.h
+
+/// Of PlantKind::mesh: bent along its axis, z from the lowest position to the highest, as a blade is; that axis is scaled
+/// to the species' height, twice the largest distance from it to its width. Colours are the vertices', times the tint.
+struct PlantMesh {
+  std::shared_ptr<const TriangleMesh> mesh;  ///< At most 512 faces, a colour each position. Null: not loaded.
+  std::vector<float> heights;  ///< How far up the axis each position bends, 0..1; empty: as high as it stands. What has
+                               ///< one coordinate stays rigid.
+  std::string file;   ///< For those who load scenes, as Species::mask_file: an OBJ, PLY or OFF file, or
+  std::string shape;  ///< a generated one (generate_plant_shape).
 };
 
 /// No bound of a range.
@@ -124,6 +137,7 @@ struct Species {
   float specular = 0.12f;                   ///< k_s of equation 14, >= 0.
   float shininess = 24.0f;                  ///< n of equation 14, >= 1.
 
+  PlantMesh mesh;  ///< Read for kind mesh alone.
   TuftShape tuft;  ///< Read for kind tuft alone, the next for flower and custom.
   FlowerShape flower;
   CustomKind custom;
@@ -183,6 +197,9 @@ struct Layer {
   std::shared_ptr<const ColorMap> distribution;  ///< Classification reads its texels (colours, alpha) instead of the
                                                  ///< base map's; its place is the base map's. Null: the base map.
   std::string mask_file, distribution_file;      ///< As Species::mask_file.
+  /// The triangles come from a MeshSurface, not from a terrain: plants stand along its normals, are chosen by its own
+  /// colours and cast no planar shadows. Masks, distribution maps and phototropism are refused.
+  bool on_mesh = false;
   float season = 0.0f;  ///< Time of the year, 0..1, 1 being 0 again; finite. Of no use without Species::seasons.
 };
 
@@ -192,6 +209,7 @@ inline constexpr int k_density_bins = 32;
 inline constexpr int k_most_shoots = 12;  ///< Lines of a plant of a kind made of shoots.
 inline constexpr int k_most_petal_colors = 4;
 inline constexpr int k_most_parameters = 16;
+inline constexpr int k_most_plant_faces = 512;  ///< Of PlantKind::mesh.
 
 /// Fails naming layer, species, field and range.
 Expected<void> validate(const Layer& layer);
