@@ -165,6 +165,7 @@ Command add_view(CLI::App& parent) {
   auto options = std::make_shared<ViewOptions>();
   CLI::App* app = parent.add_subcommand("view", "Walk and fly through a scene in a window");
   add_scene_options(*app, options->scene, true);
+  add_source_option(*app, options->scene);
   add_camera_option(*app, options->scene);
   add_sun_option(*app, options->scene);
   add_shaders_option(*app, options->scene);

@@ -165,7 +165,8 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
                              {units.exclusions, inputs.triangles.exclusions()},
                              {units.placement, inputs.placement.masks()},
                              {units.blade_shape, blade_shape_.id()},
-                             {units.plant_images, image_array_.texture()}});
+                             {units.plant_images, image_array_.texture()}},
+                            inputs.triangles.clipmap());
   glPatchParameteri(GL_PATCH_VERTICES, 1);
   glBindVertexArray(vertex_array_.id());
   for (size_t i = 0; i < classified.places().size(); ++i) {
