@@ -128,9 +128,10 @@ Expected<void> SceneRenderer::Impl::stream(const View& view, SceneFrameStats& st
   if (!boxes) return tl::unexpected(boxes.error());
   for (const LatticeBox& box : *boxes) ground.slopes().changed(box);
   if (clipmap) {
-    for (const LatticeBox& box : *boxes) clipmap->changed(box);
-    if (!boxes->empty())
-      for (ClipmapSeeder& seeder : programs.seeders) seeder.surface_changed();
+    for (const LatticeBox& box : *boxes) {
+      clipmap->changed(box);
+      for (ClipmapSeeder& seeder : programs.seeders) seeder.changed(box);
+    }
   }
   const size_t tiles = streaming == Streaming::wait ? std::numeric_limits<size_t>::max() : k_slope_tiles_a_frame;
   ground.slopes().follow(terrain.surface(), glm::dvec2(view.eye), tiles);

@@ -4,6 +4,8 @@
 // What is static of the triangles that the GPU seeds, against the bintree and the CPU's seeding.
 #include "vegetation/clipmap_table.h"
 
+#include <sward/terrain/edits.h>
+
 #include <map>
 
 #include "clipmap_support.h"
@@ -154,6 +156,25 @@ TEST(ClipmapTable, ShapesThatChangeAreFollowed) {
   EXPECT_TRUE(exclusions.remove(*disc));
   ASSERT_TRUE(table.follow(view, &exclusions));
   EXPECT_EQ(solid(), before);
+}
+
+TEST(ClipmapTable, EditsAreReadAgain) {
+  ClipmapGround ground;
+  const Layer layer = layer_of(8, 40);
+  const ColorMap map = map_over(*ground.field);
+  ClipmapTable table(layer, *ground.surface, map);
+  const View view = view_over(ground, {0, 0}, 2, 0, 0);
+  ASSERT_TRUE(table.follow(view, nullptr));
+  const auto edited = edit(*ground.field, *ground.bounds, {Edit::Kind::raise, EditRegion::disc({5, 5}, 12, 6), 9.0});
+  ASSERT_TRUE(edited) << edited.error().message;
+  table.changed(edited->changed);
+  ASSERT_TRUE(table.follow(view, nullptr));
+  ClipmapTable fresh(layer, *ground.surface, map);
+  ASSERT_TRUE(fresh.follow(view, nullptr));
+  size_t read = 0;
+  for (const ClipmapTable::Run& run : table.written()) read += run.count;
+  EXPECT_LT(read, table.candidates() / 2);
+  for (size_t i = 0; i < fresh.ground().size(); ++i) ASSERT_EQ(table.ground()[i].area, fresh.ground()[i].area);
 }
 
 TEST(ClipmapTable, RefusesHorizonsOfTooManyTriangles) {

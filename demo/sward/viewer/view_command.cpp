@@ -48,6 +48,7 @@ PanelState start_panel(const Scene& scene) {
   state.haze_distance_m = scene.haze_distance_m;
   state.season = scene.season;
   state.ground_seasons = scene.ground_seasons;
+  state.has_mesh = scene.source == TerrainSource::roam;
   state.max_triangles = int(scene.max_triangles);
   state.target_px = scene.target_px;
   state.layers = scene.layers;

@@ -197,8 +197,8 @@ Expected<void> ClipmapSeeder::seed(const View& view, const gl::Clipmap& clipmap,
   return {};
 }
 
-void ClipmapSeeder::surface_changed() {
-  impl_->table.forget();
+void ClipmapSeeder::changed(const LatticeBox& box) {
+  impl_->table.changed(box);
 }
 
 ClipmapSeedingStats ClipmapSeeder::stats(bool wait) {

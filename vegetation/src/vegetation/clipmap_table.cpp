@@ -101,6 +101,16 @@ Expected<void> ClipmapTable::resize(glm::ivec2 cells) {
   return {};
 }
 
+// Slopes reach a sample further than heights, bounds of triangles as far as their neighbours.
+void ClipmapTable::changed(const LatticeBox& box) {
+  if (box.empty()) return;
+  const int reach = 2 * surface_->lattice().sample_step();
+  const glm::ivec2 first = ((box.first - reach) >> shift_) - 2, end = ((box.last + reach) >> shift_) + 3;
+  const bool none = glm::any(glm::lessThanEqual(stale_end_, stale_first_));
+  stale_first_ = none ? first : glm::min(stale_first_, first);
+  stale_end_ = none ? end : glm::max(stale_end_, end);
+}
+
 size_t ClipmapTable::place_of(glm::ivec2 cell) const {
   const glm::ivec2 wrapped = cell & (memory_ - 1);
   return (size_t(wrapped.y) * size_t(memory_.x) + size_t(wrapped.x)) * size_t(a_cell_);
@@ -126,7 +136,8 @@ Expected<void> ClipmapTable::follow(const View& view, const Exclusions* exclusio
                     glm::any(glm::greaterThanEqual(glm::abs(want - first_), cells_));
   index_.follow(exclusions != nullptr && exclusions->size() > 0 ? exclusions : nullptr, layer_.name, reach_m_);
   const glm::ivec2 old = first_, end = want + cells_;
-  const bool moved = anew || want != first_;
+  const bool stale = glm::all(glm::greaterThan(stale_end_, stale_first_));
+  const bool moved = anew || stale || want != first_;
   first_ = want;
   if (anew) {
     runs_.assign(1, glm::vec4(0.0f));
@@ -136,6 +147,7 @@ Expected<void> ClipmapTable::follow(const View& view, const Exclusions* exclusio
   } else if (moved) {
     const size_t runs = runs_.size();
     const glm::ivec2 kept_first = glm::max(want, old), kept_end = glm::min(end, old + cells_);
+    if (stale) fill(glm::max(kept_first, stale_first_), glm::min(kept_end, stale_end_));
     fill(want, {kept_first.x, end.y});
     fill({kept_end.x, want.y}, end);
     fill({kept_first.x, want.y}, {kept_end.x, kept_first.y});
@@ -143,6 +155,7 @@ Expected<void> ClipmapTable::follow(const View& view, const Exclusions* exclusio
     runs_written_ = runs_.size() != runs;
   }
   filled_ = true;
+  stale_end_ = stale_first_;
   exclusions_version_ = version;
   if (moved || zoom_ != view.zoom()) bound_clusters(view);
   zoom_ = view.zoom();

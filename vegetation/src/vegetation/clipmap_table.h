@@ -37,8 +37,8 @@ class ClipmapTable {
 
   /// Moves the window to a view. Fails where it would hold more than k_most_candidates.
   Expected<void> follow(const View& view, const Exclusions* exclusions);
-  /// The surface or its holes may have changed: the next follow() fills everything anew.
-  void forget() { filled_ = false; }
+  /// The surface or its holes may have changed here: the next follow() fills what is around anew.
+  void changed(const LatticeBox& box);
 
   static constexpr size_t k_most_candidates = size_t(1) << 22;
   int level() const { return level_; }
@@ -79,6 +79,7 @@ class ClipmapTable {
   glm::dvec2 cell_m_{1};
   bool filled_ = false, altitudes_ = false, runs_written_ = false;
   glm::ivec2 first_{0}, cells_{0}, memory_{0};
+  glm::ivec2 stale_first_{0}, stale_end_{0};  // cells that have changed; none where the end is not beyond the first
   uint64_t exclusions_version_ = 0;
   double zoom_ = 0;
   size_t most_clusters_ = 0, runs_at_fill_ = 0;

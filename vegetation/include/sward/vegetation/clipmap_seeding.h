@@ -46,8 +46,9 @@ class ClipmapSeeder {
   /// Cost: five dispatches over all candidates within the horizon around the eye.
   Expected<void> seed(const View& view, const gl::Clipmap& clipmap, const Exclusions* exclusions = nullptr);
 
-  /// Holes, heights or slopes of the surface have changed: the next seed() reads what is static anew.
-  void surface_changed();
+  /// Holes, heights or slopes of the surface have changed here (EditResult::changed, World::poll): the next seed() reads
+  /// what is static there anew.
+  void changed(const LatticeBox& box);
 
   /// Of the last seed(); `wait` blocks until they are there, else those of the newest frame that has arrived.
   ClipmapSeedingStats stats(bool wait);
