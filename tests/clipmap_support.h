@@ -17,6 +17,7 @@ struct ClipmapField {
   glm::dvec2 spacing{4, 4};
   glm::dvec3 origin{0};
   bool relief = true;
+  double height = 1;   ///< Factor on all heights.
   bool holes = false;  ///< A rectangle of samples without data.
 };
 

@@ -238,8 +238,8 @@ void expect_same_as_everywhere(Meadow& meadow, size_t at_least) {
 }
 
 TEST_F(ClipmapSeeding, TheSamePlantsAtEvenAndOddLevels) {
-  // Triangles of 16, 8, 4 and 2 m2, and larger than the rings' cells by far.
-  for (const float area : {16.0f, 8.0f, 4.0f, 2.0f, 128.0f}) {
+  // Some larger than the rings' cells by far, and some so small that there are several runs of work groups.
+  for (const float area : {16.0f, 8.0f, 4.0f, 2.0f, 0.5f, 128.0f}) {
     SCOPED_TRACE(area);
     Meadow meadow_of({}, meadow(area));
     meadow_of.look(view_over(meadow_of.ground, {12, -31}, 1.7, 40, -15));

@@ -105,6 +105,41 @@ TEST_F(ClipmapDraw, NoCracks) {
   EXPECT_GT(looked_at, 1000000u);
 }
 
+/// Straight down, without perspective: 200 m a side.
+View map_view(View view) {
+  constexpr double k_half = 100, k_near = -300, k_far = 300;
+  view.clip_from_eye = glm::dmat4(1);
+  view.clip_from_eye[0][0] = view.clip_from_eye[1][1] = 1 / k_half;
+  view.clip_from_eye[2][2] = -2 / (k_far - k_near);
+  view.clip_from_eye[3][2] = -(k_far + k_near) / (k_far - k_near);
+  return view;
+}
+
+// A height field as a map, without a depth test: every pixel gets one fragment; two where rings overlap or a hole is
+// not cut, none where they leave a gap.
+TEST_F(ClipmapDraw, EveryPixelOnce) {
+  Stage stage({});
+  auto target = host::RenderTarget::create({320, 320}, 1);
+  ASSERT_TRUE(target) << target.error().message;
+  const gl::Query query = gl::create_query(GL_SAMPLES_PASSED);
+  for (int i = 0; i < 16; ++i) {
+    const View view =
+        map_view(view_over(stage.ground, {11.3 * i - 80, 75 - 9.7 * i}, 1 + 2 * i, 17 * i, -90, {320, 320}));
+    Stage::begin(*target, {1, 0, 1});
+    stage.clipmap.follow(view);
+    stage.frame.upload(view, stage.light, 0, 1);
+    glDepthFunc(GL_ALWAYS);
+    glBeginQuery(GL_SAMPLES_PASSED, query.id());
+    stage.renderer.draw(view, stage.clipmap, stage.frame, stage.textures);
+    glEndQuery(GL_SAMPLES_PASSED);
+    glDepthFunc(GL_LESS);
+    GLuint64 samples = 0;
+    glGetQueryObjectui64v(query.id(), GL_QUERY_RESULT, &samples);
+    EXPECT_EQ(samples, GLuint64(320 * 320)) << i;
+    EXPECT_LT(stage.clipmap.rings().finest() + 2, stage.clipmap.rings().rings());
+  }
+}
+
 TEST_F(ClipmapDraw, ThePictureIsTheMeshs) {
   Stage stage({}, 256);
   auto target = host::RenderTarget::create({320, 180}, 1);
