@@ -324,6 +324,7 @@ Expected<void> SceneRenderer::set_layer(size_t index, const Layer& layer) {
 
 void SceneRenderer::set_season(float season) {
   for (VegetationRenderer& layer : impl_->programs.vegetation) layer.set_season(season);
+  for (ClipmapSeeder& seeder : impl_->programs.seeders) seeder.set_season(season);
   for (Layer& layer : impl_->layers) layer.season = season;
   impl_->cpu.set_season(season);
 }

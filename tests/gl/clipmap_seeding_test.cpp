@@ -30,12 +30,15 @@ ColorMap patches(const HeightField& field) {
       if ((column / 5 + row / 7) % 3 == 0) map.texels[size_t(row * 96 + column)] = k_brown;
   map.min_corner = field.min_corner();
   map.size = field.max_corner() - map.min_corner;
+  map.bounds = bound_colors(map);
   return map;
 }
 
 Layer meadow(float triangle_area_m2, float horizon_m = 40) {
   Layer layer;
   layer.species = {grass_of("grass", k_green), grass_of("sedge", {120, 120, 60, 255}), bare_of("soil", k_brown)};
+  // Nothing can be fed in the middle of a brown patch.
+  layer.species[0].max_distance = layer.species[1].max_distance = 0.12f;
   layer.triangle_area_m2 = triangle_area_m2;
   layer.horizon_m = horizon_m;
   layer.density = 12;

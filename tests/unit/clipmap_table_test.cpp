@@ -177,6 +177,38 @@ TEST(ClipmapTable, EditsAreReadAgain) {
   for (size_t i = 0; i < fresh.ground().size(); ++i) ASSERT_EQ(table.ground()[i].area, fresh.ground()[i].area);
 }
 
+TEST(ClipmapTable, GroundThatFeedsNothingIsLeftOut) {
+  const ClipmapGround ground;
+  ColorMap map = map_over(*ground.field);
+  for (int i = 0; i < 64 * 64; ++i)
+    if (i % 64 < 32) map.texels[size_t(i)] = {120, 90, 60, 255};
+  Layer layer = layer_of(8, 60);
+  const glm::vec3 green(0.25f, 0.615f, 0.51f), brown(0.0833f, 0.5f, 0.47f);
+  layer.species[0].reference_hsv = green;
+  layer.species[0].max_distance = 0.05f;
+  SeasonValues as_green, as_brown;
+  as_green.reference_hsv = green;
+  as_brown.reference_hsv = brown;
+  layer.species[0].seasons = {{0.0f, as_green}, {0.5f, as_brown}};
+  const View view = view_over(ground, {0, 0}, 2, 0, 0);
+  const auto solid = [&](const ClipmapTable& table, bool west) {
+    size_t count = 0;
+    for (const SeedGround& triangle : table.ground())
+      count += triangle.area > 0 && (west ? triangle.texel.x < 14 : triangle.texel.x > 49);
+    return count;
+  };
+  map.bounds = bound_colors(map);
+  layer.horizon_m = 200;  // beyond the tiles that hold both colours
+  ClipmapTable table(layer, *ground.surface, map);
+  ASSERT_TRUE(table.follow(view, nullptr));
+  EXPECT_EQ(solid(table, true), 0u);
+  EXPECT_GT(solid(table, false), 500u);
+  table.set_season(0.5f);
+  ASSERT_TRUE(table.follow(view, nullptr));
+  EXPECT_GT(solid(table, true), 500u);
+  EXPECT_EQ(solid(table, false), 0u);
+}
+
 TEST(ClipmapTable, RefusesHorizonsOfTooManyTriangles) {
   const ClipmapGround ground;
   ClipmapTable table(layer_of(0.2, 5000), *ground.surface, map_over(*ground.field));

@@ -4,6 +4,7 @@
 #include <sward/vegetation/clipmap_seeding.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "vegetation/clipmap_seeder_buffers.h"
@@ -195,6 +196,11 @@ Expected<void> ClipmapSeeder::seed(const View& view, const gl::Clipmap& clipmap,
   self.back.request(self.frame.id());
   self.seeded = true;
   return {};
+}
+
+void ClipmapSeeder::set_season(float season) {
+  SWARD_ASSERT(std::isfinite(season), "a season is a finite number");
+  impl_->table.set_season(season);
 }
 
 void ClipmapSeeder::changed(const LatticeBox& box) {

@@ -85,6 +85,33 @@ ClipmapTable::ClipmapTable(const Layer& layer, const Surface& surface, const Col
   // All are equal up to turning, and reach no further than across a cell.
   reach_m_ = glm::length(cell_m_);
   scratch_.push_back({});
+  map_.width = map.width;
+  map_.height = map.height;
+  map_.min_corner = map.min_corner;
+  map_.size = map.size;
+  map_.bounds = map.bounds;
+}
+
+bool ClipmapTable::references_moved() {
+  if (layer_.season == known_season_) return false;
+  known_season_ = layer_.season;
+  std::vector<glm::vec3> references;
+  for (const shared::SpeciesParams& params : make_species_params(layer_)) {
+    references.emplace_back(params.reference);
+    references.emplace_back(params.next);
+  }
+  const bool moved = references != references_;
+  references_ = std::move(references);
+  return moved;
+}
+
+// Whether the ground's colours can feed no species there, as seed() asks.
+bool ClipmapTable::barren(glm::dvec2 apex, glm::dvec2 left, glm::dvec2 right) {
+  const glm::dvec2 corner(map_.min_corner.x, map_.min_corner.y + map_.size.y);
+  const glm::dvec2 texels_per_m =
+      glm::dvec2(classification_map(layer_, geometry_of(map_)).texels) / map_.size * glm::dvec2(1, -1);
+  const auto place = [&](glm::dvec2 at) { return (at - corner) * texels_per_m; };
+  return fertile_.barren(place(apex), place(left), place(right));
 }
 
 Expected<void> ClipmapTable::resize(glm::ivec2 cells) {
@@ -132,7 +159,9 @@ Expected<void> ClipmapTable::follow(const View& view, const Exclusions* exclusio
   const glm::ivec2 want = glm::ivec2(glm::floor(glm::ldexp(eye, glm::ivec2(-shift_)))) - half;
 
   const uint64_t version = exclusions != nullptr ? exclusions->version() : 0;
-  const bool anew = !filled_ || version != exclusions_version_ || runs_.size() > 2 * runs_at_fill_ + k_stale_runs ||
+  const bool references = references_moved();
+  const bool anew = !filled_ || references || version != exclusions_version_ ||
+                    runs_.size() > 2 * runs_at_fill_ + k_stale_runs ||
                     glm::any(glm::greaterThanEqual(glm::abs(want - first_), cells_));
   index_.follow(exclusions != nullptr && exclusions->size() > 0 ? exclusions : nullptr, layer_.name, reach_m_);
   const glm::ivec2 old = first_, end = want + cells_;
@@ -140,6 +169,7 @@ Expected<void> ClipmapTable::follow(const View& view, const Exclusions* exclusio
   const bool moved = anew || stale || want != first_;
   first_ = want;
   if (anew) {
+    fertile_.follow(layer_, map_);
     runs_.assign(1, glm::vec4(0.0f));
     runs_written_ = true;
     fill(want, end);
@@ -187,6 +217,7 @@ SeedGround ClipmapTable::make(glm::ivec2 cell, int triangle) {
   const LatticePoint end = lattice.last();
   if (box.first.x >= end.x || box.first.y >= end.y || surface_->all_holes(box)) return ground;
   const glm::dvec2 apex = lattice.world_xy(c.apex), left = lattice.world_xy(c.left), right = lattice.world_xy(c.right);
+  if (barren(apex, left, right)) return ground;
   FixedTriangle fixed;
   fixed.apex = glm::dvec3(apex, 0);
   fixed.to_left = glm::vec3(glm::vec2(left - apex), 0);

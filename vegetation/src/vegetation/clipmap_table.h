@@ -7,11 +7,13 @@
 #include <sward/terrain/surface.h>
 #include <sward/terrain/view.h>
 #include <sward/vegetation/placement.h>
+#include <cmath>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "vegetation/exclusion_index.h"
+#include "vegetation/fertile_ground.h"
 #include "vegetation/triangle_record.h"
 
 namespace sward {
@@ -20,7 +22,7 @@ namespace sward {
 struct SeedGround {
   glm::ivec2 texel{0};
   glm::vec2 texel_fraction{0};
-  float area = 0;  ///< 0: no plant stands on it: padding, a hole, or covered by an excluded shape.
+  float area = 0;  ///< 0: no plant stands on it: padding, a hole, colours that feed no species, an excluded shape.
   float slope = 0;
   float bound = 0;          ///< How far the finest surface leaves the triangle, metres.
   uint32_t exclusions = 0;  ///< First texel of its run in ClipmapTable::exclusions(), 0: none.
@@ -37,6 +39,8 @@ class ClipmapTable {
 
   /// Moves the window to a view. Fails where it would hold more than k_most_candidates.
   Expected<void> follow(const View& view, const Exclusions* exclusions);
+  /// Layer::season: references that move change what can be fed.
+  void set_season(float season) { layer_.season = season; }
   /// The surface or its holes may have changed here: the next follow() fills what is around anew.
   void changed(const LatticeBox& box);
 
@@ -66,6 +70,8 @@ class ClipmapTable {
   Expected<void> resize(glm::ivec2 cells);
   void fill(glm::ivec2 first, glm::ivec2 end);
   SeedGround make(glm::ivec2 cell, int triangle);
+  bool references_moved();
+  bool barren(glm::dvec2 apex, glm::dvec2 left, glm::dvec2 right);
   bool exclude(glm::dvec2 apex, glm::vec2 to_left, glm::vec2 to_right, SeedGround& ground);
   void bound_clusters(const View& view);
   size_t place_of(glm::ivec2 cell) const;
@@ -74,6 +80,10 @@ class ClipmapTable {
   const Surface* surface_;
   RecordMaker maker_;
   ExclusionIndex index_;
+  FertileGround fertile_;
+  ColorMap map_;  // without texels
+  float known_season_ = NAN;
+  std::vector<glm::vec3> references_;  // of all species, now and at the season's next step
   int level_ = 0, bits_ = 0, shift_ = 0, a_cell_ = 2;
   double level_area_ = 0, reach_m_ = 0;
   glm::dvec2 cell_m_{1};

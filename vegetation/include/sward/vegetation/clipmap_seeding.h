@@ -11,7 +11,7 @@ namespace sward {
 
 /// What a frame's seeding on the GPU came to.
 struct ClipmapSeedingStats {
-  uint32_t fixed_triangles = 0;  ///< Candidates in sight and within the horizon.
+  uint32_t fixed_triangles = 0;  ///< Candidates in sight and within the horizon that could feed a plant.
   uint32_t seeded = 0;           ///< Of these, such as submit seeds.
   uint32_t clusters = 0;         ///< That the bins submit.
 };
@@ -45,6 +45,9 @@ class ClipmapSeeder {
   /// Leaves: program 0, those bindings, the general uniform and storage buffer bindings and that sampler 0.
   /// Cost: five dispatches over all candidates within the horizon around the eye.
   Expected<void> seed(const View& view, const gl::Clipmap& clipmap, const Exclusions* exclusions = nullptr);
+
+  /// As VegetationRenderer::set_season(), of the same layer: which ground can feed a species follows the references.
+  void set_season(float season);
 
   /// Holes, heights or slopes of the surface have changed here (EditResult::changed, World::poll): the next seed() reads
   /// what is static there anew.
