@@ -160,7 +160,7 @@ TEST(ClipmapTable, ShapesThatChangeAreFollowed) {
 
 TEST(ClipmapTable, EditsAreReadAgain) {
   ClipmapGround ground;
-  const Layer layer = layer_of(8, 40);
+  const Layer layer = layer_of(8, 80);
   const ColorMap map = map_over(*ground.field);
   ClipmapTable table(layer, *ground.surface, map);
   const View view = view_over(ground, {0, 0}, 2, 0, 0);
