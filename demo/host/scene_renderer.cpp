@@ -23,10 +23,12 @@ constexpr size_t k_slope_tiles_a_frame = 4;
 
 // What is compiled from shaders, so that a reload can build it aside.
 struct Programs {
-  TerrainRenderer terrain;
+  std::optional<TerrainRenderer> terrain;  // one of the two
+  std::optional<ClipmapRenderer> clipmap;
   Sky sky;
   std::vector<VegetationRenderer> vegetation;
   std::vector<MeshRenderer> meshes;  // bodies of the layers on meshes
+  std::vector<ClipmapSeeder> seeders;  // of the layers, on a clipmap
 };
 
 // The library with the functions of the layers' own kinds, as their files are now. A name that is no file is left to
@@ -48,22 +50,57 @@ Expected<gl::ShaderLibrary> with_kinds(gl::ShaderLibrary shaders, const std::vec
   return shaders;
 }
 
-Expected<Programs> build_programs(const std::vector<Layer>& layers, const SceneTerrain& ground,
-                                  const gl::ShaderLibrary& shaders, const gl::Bindings& bindings) {
-  auto terrain = TerrainRenderer::create(shaders, bindings);
-  if (!terrain) return tl::unexpected(terrain.error());
+// Without the layers.
+Expected<Programs> build_ground(TerrainSource source, const gl::ShaderLibrary& shaders, const gl::Bindings& bindings) {
   auto sky = Sky::create(shaders, bindings);
   if (!sky) return tl::unexpected(sky.error());
-  Programs programs{std::move(*terrain), std::move(*sky), {}, {}};
-  for (const Layer& layer : layers) {
-    auto vegetation = VegetationRenderer::create(layer, shaders, bindings);
-    if (!vegetation) return tl::unexpected(vegetation.error());
-    programs.vegetation.push_back(std::move(*vegetation));
-    const auto surface = ground.mesh_of(layer.name);
-    if (!surface) continue;
+  Programs programs{{}, {}, std::move(*sky), {}, {}, {}};
+  if (source == TerrainSource::clipmap) {
+    auto clipmap = ClipmapRenderer::create(shaders, bindings);
+    if (!clipmap) return tl::unexpected(clipmap.error());
+    programs.clipmap = std::move(*clipmap);
+    return programs;
+  }
+  auto terrain = TerrainRenderer::create(shaders, bindings);
+  if (!terrain) return tl::unexpected(terrain.error());
+  programs.terrain = std::move(*terrain);
+  return programs;
+}
+
+Expected<VegetationRenderer> build_vegetation(const Layer& layer, TerrainSource source,
+                                              const gl::ShaderLibrary& shaders, const gl::Bindings& bindings) {
+  return source == TerrainSource::clipmap ? VegetationRenderer::create_for_clipmap(layer, shaders, bindings)
+                                          : VegetationRenderer::create(layer, shaders, bindings);
+}
+
+// What a layer on a mesh has besides, and one on a clipmap.
+Expected<void> add_ground_of(const Layer& layer, TerrainSource source, const SceneTerrain& terrain,
+                             const gl::ShaderLibrary& shaders, const gl::Bindings& bindings, Programs& programs) {
+  if (const auto surface = terrain.mesh_of(layer.name)) {
+    if (source == TerrainSource::clipmap)
+      return fail("layer '" + layer.name +
+                  "' covers a surface, which terrain source \"clipmap\" does not seed; choose \"roam\"");
     auto body = MeshRenderer::create(*surface, layer, shaders, bindings);
     if (!body) return tl::unexpected(body.error());
     programs.meshes.push_back(std::move(*body));
+  }
+  if (source != TerrainSource::clipmap) return {};
+  auto seeder = ClipmapSeeder::create(layer, terrain.surface(), terrain.colors(), shaders, bindings);
+  if (!seeder) return tl::unexpected(seeder.error());
+  programs.seeders.push_back(std::move(*seeder));
+  return {};
+}
+
+Expected<Programs> build_programs(const std::vector<Layer>& layers, TerrainSource source, const SceneTerrain& terrain,
+                                  const gl::ShaderLibrary& shaders, const gl::Bindings& bindings) {
+  auto programs = build_ground(source, shaders, bindings);
+  if (!programs) return programs;
+  for (const Layer& layer : layers) {
+    auto vegetation = build_vegetation(layer, source, shaders, bindings);
+    if (!vegetation) return tl::unexpected(vegetation.error());
+    programs->vegetation.push_back(std::move(*vegetation));
+    if (auto added = add_ground_of(layer, source, terrain, shaders, bindings, *programs); !added)
+      return tl::unexpected(added.error());
   }
   return programs;
 }
@@ -83,6 +120,7 @@ struct SceneRenderer::Impl {
   gl::Frame frame;
   gl::GroundTextures ground;
   SceneFrame cpu;
+  std::optional<gl::Clipmap> clipmap;  // with terrain.source = "clipmap"
   Programs programs;
   GpuTimer terrain_timer, classify_timer, grow_timer;
   bool vegetation_on = true, sky_on = true, rasterised = true;
@@ -90,6 +128,11 @@ struct SceneRenderer::Impl {
   float sun_azimuth = 0;  // of the last frame
 
   Expected<void> stream(const View& view, SceneFrameStats& stats);
+  TerrainSource source() const { return clipmap ? TerrainSource::clipmap : TerrainSource::roam; }
+  Expected<void> follow(const View& view, double time_s, SceneFrameStats& stats);
+  void draw_terrain(const View& view, SceneFrameStats& stats);
+  Expected<void> seed_on_cpu(const View& view, SceneFrameStats& stats);
+  Expected<void> seed_on_gpu(const View& view);
   Expected<void> draw_vegetation(const View& view, GLuint framebuffer, SceneFrameStats& stats);
   void gather(bool wait, SceneFrameStats& stats);
 };
@@ -101,6 +144,12 @@ Expected<void> SceneRenderer::Impl::stream(const View& view, SceneFrameStats& st
   auto boxes = cpu.stream(view, streaming);
   if (!boxes) return tl::unexpected(boxes.error());
   for (const LatticeBox& box : *boxes) ground.slopes().changed(box);
+  if (clipmap) {
+    for (const LatticeBox& box : *boxes) {
+      clipmap->changed(box);
+      for (ClipmapSeeder& seeder : programs.seeders) seeder.changed(box);
+    }
+  }
   const size_t tiles = streaming == Streaming::wait ? std::numeric_limits<size_t>::max() : k_slope_tiles_a_frame;
   ground.slopes().follow(terrain.surface(), glm::dvec2(view.eye), tiles);
   stats.world = terrain.world()->stats();
@@ -108,17 +157,64 @@ Expected<void> SceneRenderer::Impl::stream(const View& view, SceneFrameStats& st
   return {};
 }
 
-Expected<void> SceneRenderer::Impl::draw_vegetation(const View& view, GLuint framebuffer, SceneFrameStats& stats) {
+// The terrain's own level of detail.
+Expected<void> SceneRenderer::Impl::follow(const View& view, double time_s, SceneFrameStats& stats) {
   const auto begin = std::chrono::steady_clock::now();
+  if (clipmap) {
+    if (auto valid = view.validate(); !valid) return valid;
+    // The first frame, and those that wait, are whole; a live one reads one ring's worth at most.
+    const bool whole = streaming == Streaming::wait || clipmap->rings().finest() == clipmap->rings().rings();
+    stats.clipmap.emplace();
+    stats.clipmap->upload = clipmap->follow(view, whole ? std::numeric_limits<size_t>::max() : 0);
+    stats.clipmap->rings = clipmap->rings().rings();
+    stats.clipmap->finest = clipmap->rings().finest();
+    stats.clipmap->settled = clipmap->rings().settled();
+  } else {
+    auto roam = cpu.mesh().update(view, time_s);
+    if (!roam) return tl::unexpected(roam.error());
+    stats.roam = *roam;
+    programs.terrain->upload(cpu.mesh());
+  }
+  stats.cpu_roam_ms = ms_since(begin);
+  return {};
+}
+
+void SceneRenderer::Impl::draw_terrain(const View& view, SceneFrameStats& stats) {
+  if (!clipmap) return programs.terrain->draw(view, frame, ground);
+  programs.clipmap->draw(view, *clipmap, frame, ground);
+  stats.clipmap->blocks = programs.clipmap->blocks();
+  stats.roam.visible = programs.clipmap->triangles();
+}
+
+Expected<void> SceneRenderer::Impl::seed_on_cpu(const View& view, SceneFrameStats& stats) {
   stats.fixed_triangles = cpu.cut_triangles(view);
   cpu.seed_triangles(view, terrain.colors());
   for (size_t i = 0; i < programs.vegetation.size(); ++i) {
     const auto& layer = cpu.layers()[i];
     if (auto fits = programs.vegetation[i].upload(layer.seeding, layer.triangles, view); !fits) return fits;
   }
+  return {};
+}
+
+Expected<void> SceneRenderer::Impl::seed_on_gpu(const View& view) {
+  for (size_t i = 0; i < programs.seeders.size(); ++i) {
+    if (auto seeded = programs.seeders[i].seed(view, *clipmap, &cpu.exclusions()); !seeded) return seeded;
+    programs.vegetation[i].upload(programs.seeders[i], *clipmap, view);
+  }
+  return {};
+}
+
+Expected<void> SceneRenderer::Impl::draw_vegetation(const View& view, GLuint framebuffer, SceneFrameStats& stats) {
+  const auto begin = std::chrono::steady_clock::now();
+  if (clipmap) {
+    classify_timer.begin();
+    if (auto seeded = seed_on_gpu(view); !seeded) return seeded;
+  } else {
+    if (auto seeded = seed_on_cpu(view, stats); !seeded) return seeded;
+    classify_timer.begin();
+  }
   stats.cpu_seeding_ms = ms_since(begin);
 
-  classify_timer.begin();
   for (VegetationRenderer& layer : programs.vegetation) layer.classify(frame, ground, framebuffer);
   classify_timer.end();
   if (!rasterised) glEnable(GL_RASTERIZER_DISCARD);
@@ -142,6 +238,11 @@ void SceneRenderer::Impl::gather(bool wait, SceneFrameStats& stats) {
     if (one.fragments) stats.vegetation.fragments = stats.vegetation.fragments.value_or(0) + *one.fragments;
     stats.vegetation.overflow = stats.vegetation.overflow || one.overflow;
   }
+  for (ClipmapSeeder& seeder : programs.seeders) {
+    const ClipmapSeedingStats one = seeder.stats(wait);
+    stats.fixed_triangles += one.fixed_triangles;
+    stats.vegetation.clusters_submitted += one.clusters;
+  }
 }
 
 SceneRenderer::SceneRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -164,12 +265,18 @@ Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTer
   if (!ground) return tl::unexpected(ground.error());
   auto library = with_kinds(shaders, scene.layers, scene.directory);
   if (!library) return tl::unexpected(library.error());
-  auto programs = build_programs(scene.layers, terrain, *library, bindings);
+  auto programs = build_programs(scene.layers, scene.source, terrain, *library, bindings);
   if (!programs) return tl::unexpected(programs.error());
+  std::optional<gl::Clipmap> clipmap;
+  if (scene.source == TerrainSource::clipmap) {
+    auto made = gl::Clipmap::create(terrain.surface());
+    if (!made) return tl::unexpected(made.error());
+    clipmap = std::move(*made);
+  }
   const bool timed = gpu_can_time();
   return SceneRenderer(std::unique_ptr<Impl>(new Impl{
       terrain, scene.directory, std::move(*library), bindings, scene.layers, std::move(*frame), std::move(*ground),
-      std::move(*cpu), std::move(*programs), GpuTimer(timed), GpuTimer(timed), GpuTimer(timed)}));
+      std::move(*cpu), std::move(clipmap), std::move(*programs), GpuTimer(timed), GpuTimer(timed), GpuTimer(timed)}));
 }
 
 Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighting& lighting, double time_s,
@@ -177,17 +284,12 @@ Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighti
   Impl& self = *impl_;
   SceneFrameStats stats;
   if (auto streamed = self.stream(view, stats); !streamed) return tl::unexpected(streamed.error());
-  const auto begin = std::chrono::steady_clock::now();
-  auto roam = self.cpu.mesh().update(view, time_s);
-  if (!roam) return tl::unexpected(roam.error());
-  stats.roam = *roam;
-  self.programs.terrain.upload(self.cpu.mesh());
-  stats.cpu_roam_ms = ms_since(begin);
+  if (auto followed = self.follow(view, time_s, stats); !followed) return tl::unexpected(followed.error());
 
   self.sun_azimuth = lighting.sun_azimuth;
   self.frame.upload(view, lighting, time_s, samples);
   self.terrain_timer.begin();
-  self.programs.terrain.draw(view, self.frame, self.ground);
+  self.draw_terrain(view, stats);
   for (MeshRenderer& body : self.programs.meshes) body.draw(view, self.frame);
   self.terrain_timer.end();
   if (self.sky_on) self.programs.sky.draw(self.frame);
@@ -195,13 +297,14 @@ Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighti
     if (auto drawn = self.draw_vegetation(view, framebuffer, stats); !drawn) return tl::unexpected(drawn.error());
   }
   self.gather(wait_for_stats, stats);
-  stats.bound_px = self.cpu.mesh().bound_px();
+  if (!self.clipmap) stats.bound_px = self.cpu.mesh().bound_px();
   return stats;
 }
 
 Expected<RoamStats> SceneRenderer::update(const View& view, double time_s) {
   SceneFrameStats ignored;
   if (auto streamed = impl_->stream(view, ignored); !streamed) return tl::unexpected(streamed.error());
+  if (impl_->clipmap) return RoamStats{};
   return impl_->cpu.mesh().update(view, time_s);
 }
 
@@ -223,8 +326,14 @@ void SceneRenderer::set_sky(bool enabled) {
 
 Expected<void> SceneRenderer::set_layer(size_t index, const Layer& layer) {
   SWARD_ASSERT(index < impl_->layers.size(), "set_layer: no layer has this index");
-  auto vegetation = VegetationRenderer::create(layer, impl_->shaders, impl_->bindings);
+  auto vegetation = build_vegetation(layer, impl_->source(), impl_->shaders, impl_->bindings);
   if (!vegetation) return tl::unexpected(vegetation.error());
+  if (impl_->clipmap) {
+    const SceneTerrain& terrain = impl_->terrain;
+    auto seeder = ClipmapSeeder::create(layer, terrain.surface(), terrain.colors(), impl_->shaders, impl_->bindings);
+    if (!seeder) return tl::unexpected(seeder.error());
+    impl_->programs.seeders[index] = std::move(*seeder);
+  }
   impl_->programs.vegetation[index] = std::move(*vegetation);
   impl_->cpu.set_layer(index, layer);
   impl_->layers[index] = layer;
@@ -233,6 +342,7 @@ Expected<void> SceneRenderer::set_layer(size_t index, const Layer& layer) {
 
 void SceneRenderer::set_season(float season) {
   for (VegetationRenderer& layer : impl_->programs.vegetation) layer.set_season(season);
+  for (ClipmapSeeder& seeder : impl_->programs.seeders) seeder.set_season(season);
   for (Layer& layer : impl_->layers) layer.season = season;
   impl_->cpu.set_season(season);
 }
@@ -244,7 +354,7 @@ Exclusions& SceneRenderer::exclusions() {
 Expected<void> SceneRenderer::reload(const gl::ShaderLibrary& shaders) {
   auto library = with_kinds(shaders, impl_->layers, impl_->directory);
   if (!library) return tl::unexpected(library.error());
-  auto programs = build_programs(impl_->layers, impl_->terrain, *library, impl_->bindings);
+  auto programs = build_programs(impl_->layers, impl_->source(), impl_->terrain, *library, impl_->bindings);
   if (!programs) return tl::unexpected(programs.error());
   impl_->programs = std::move(*programs);
   impl_->shaders = std::move(*library);
@@ -260,14 +370,29 @@ const std::vector<Layer>& SceneRenderer::layers() const {
 }
 
 std::vector<Plant> SceneRenderer::plants_cpu(const View& view) const {
-  return impl_->cpu.plants(view, impl_->terrain.colors(), impl_->sun_azimuth);
+  if (!impl_->clipmap) return impl_->cpu.plants(view, impl_->terrain.colors(), impl_->sun_azimuth);
+  std::vector<Plant> all;
+  for (size_t i = 0; i < impl_->programs.seeders.size(); ++i) {
+    FixedTriangles triangles;
+    Seeding seeding;
+    impl_->programs.seeders[i].read_back(view, *impl_->clipmap, triangles, seeding);
+    std::vector<Plant> grown =
+        grow_plants(impl_->layers[i], view, impl_->terrain.colors(), triangles, seeding, impl_->sun_azimuth);
+    for (Plant& plant : grown) plant.species += impl_->cpu.layers()[i].first_species;
+    all.insert(all.end(), grown.begin(), grown.end());
+  }
+  return all;
 }
 
 Expected<std::vector<Plant>> SceneRenderer::plants_gpu(const View& view, GLuint framebuffer) {
   std::vector<Plant> all;
   for (size_t i = 0; i < impl_->programs.vegetation.size(); ++i) {
     const LayerFrame& layer = impl_->cpu.layers()[i];
-    auto grown = impl_->programs.vegetation[i].read_back(impl_->frame, impl_->ground, view, layer.seeding, framebuffer);
+    Seeding seeded;
+    FixedTriangles triangles;
+    if (impl_->clipmap) impl_->programs.seeders[i].read_back(view, *impl_->clipmap, triangles, seeded);
+    const Seeding& seeding = impl_->clipmap ? seeded : layer.seeding;
+    auto grown = impl_->programs.vegetation[i].read_back(impl_->frame, impl_->ground, view, seeding, framebuffer);
     if (!grown) return tl::unexpected(grown.error());
     for (Plant& plant : *grown) plant.species += layer.first_species;
     all.insert(all.end(), grown->begin(), grown->end());

@@ -4,7 +4,9 @@
 
 #include <sward/scene/scene.h>
 #include <sward/terrain/roam_mesh.h>
+#include <sward/terrain_gl/clipmap_renderer.h>
 #include <sward/terrain_gl/terrain_renderer.h>
+#include <sward/vegetation/clipmap_seeding.h>
 #include <sward/vegetation/mesh_renderer.h>
 #include <sward/vegetation/vegetation_renderer.h>
 #include <memory>
@@ -16,17 +18,28 @@
 
 namespace sward::host {
 
+/// Of a frame of a scene with terrain.source = "clipmap".
+struct ClipmapFrameStats {
+  gl::Clipmap::Upload upload;
+  int rings = 0, finest = 0;  ///< How many there are; the finest one drawn.
+  uint32_t blocks = 0;        ///< Drawn.
+  bool settled = true;        ///< Nothing is left to be read.
+};
+
 struct SceneFrameStats {
+  /// On a clipmap only `visible` counts: triangles of the drawn blocks.
   RoamStats roam;
-  std::optional<WorldStats> world;  ///< Empty where the ground is no world.
-  float bound_px = 0;
+  std::optional<ClipmapFrameStats> clipmap;  ///< Empty with terrain.source = "roam".
+  std::optional<WorldStats> world;           ///< Empty where the ground is no world.
+  float bound_px = 0;                        ///< 0 on a clipmap, which has none.
   uint32_t fixed_triangles = 0;
   VegetationStats vegetation;  ///< Sums over the layers.
   double cpu_stream_ms = 0;    ///< Worlds: following the view, taking squares over, slopes for shading.
-  double cpu_roam_ms = 0;      ///< Update and upload of what changed.
+  double cpu_roam_ms = 0;      ///< Update and upload of what changed, of the mesh or of the clipmap's rings.
   double cpu_seeding_ms = 0;   ///< Fixed-level triangles, seeding, upload.
   /// Of this frame when waited for, else of the newest frame whose times have arrived; empty where the driver cannot
   /// measure (software renderers) or nothing has arrived yet.
+  /// On a clipmap seeding is the GPU's and counts with classification.
   std::optional<double> gpu_terrain_ms, gpu_classify_ms, gpu_grow_ms;
 };
 
@@ -66,10 +79,11 @@ class SceneRenderer {
   /// Builds every program from `shaders`, then swaps them all in. On an error the old ones stay.
   Expected<void> reload(const gl::ShaderLibrary& shaders);
 
+  /// On a clipmap it stays as it was made.
   RoamMesh& mesh();
   const std::vector<Layer>& layers() const;
   /// Plants of the last frame: from the CPU twin, or read back from the GPU. Plant::species counts on from layer to
-  /// layer.
+  /// layer. On a clipmap the twin too starts from the triangles that the GPU seeded, read back.
   std::vector<Plant> plants_cpu(const View& view) const;
   Expected<std::vector<Plant>> plants_gpu(const View& view, GLuint framebuffer);
 

@@ -162,6 +162,12 @@ void add_season_option(CLI::App& app, SceneOptions& options) {
   app.add_option("--season", options.season, "Time of the year, 0 to 1, instead of the scene's")->type_name("SEASON");
 }
 
+void add_source_option(CLI::App& app, SceneOptions& options) {
+  app.add_option("--source", options.source, "What draws the ground and seeds plants on it, instead of the scene's")
+      ->check(CLI::IsMember({"roam", "clipmap"}))
+      ->type_name("roam|clipmap");
+}
+
 Expected<Scene> make_scene(const SceneOptions& options) {
   auto scene = read_scene(options.scene);
   if (!scene) return scene;
@@ -169,6 +175,12 @@ Expected<Scene> make_scene(const SceneOptions& options) {
   if (auto done = override_heights(options, *scene); !done) return tl::unexpected(done.error());
   if (auto done = override_view(options, *scene); !done) return tl::unexpected(done.error());
   if (!options.texture.empty()) scene->texture_path = absolute(options.texture);
+  if (!options.source.empty())
+    scene->source = options.source == "clipmap" ? TerrainSource::clipmap : TerrainSource::roam;
+  if (options.triangles && scene->source == TerrainSource::clipmap)
+    return fail(
+        "--triangles is the budget of a mesh, and a clipmap draws its rings whole; leave it out or take "
+        "--source roam");
   scene->max_triangles = options.triangles.value_or(scene->max_triangles);
   if (options.season) {
     if (!(*options.season >= 0 && *options.season <= 1)) return fail("--season must be a number from 0 to 1");

@@ -27,6 +27,7 @@ struct SceneOptions {
   std::optional<float> season;  ///< Time of the year.
   std::string detail;           ///< "on" or "off".
   bool detail_given = false;
+  std::string source;   ///< "roam" or "clipmap"; empty: the scene's.
   std::string shaders;  ///< Folder of shader files that replace those built in; empty: none.
 };
 
@@ -37,6 +38,8 @@ void add_camera_option(CLI::App& app, SceneOptions& options);
 void add_sun_option(CLI::App& app, SceneOptions& options);
 void add_shaders_option(CLI::App& app, SceneOptions& options);
 void add_season_option(CLI::App& app, SceneOptions& options);
+/// --source, of commands that draw the ground.
+void add_source_option(CLI::App& app, SceneOptions& options);
 
 /// Reads the scene and lays the options over it.
 Expected<Scene> make_scene(const SceneOptions& options);

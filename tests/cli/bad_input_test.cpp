@@ -39,6 +39,8 @@ const BadInput k_cases[] = {
     {"SamplesNoNumber", "render SCENE --samples many -o a.ppm", 2, "--samples"},
     {"SunTooShort", "render SCENE --sun 3 -o a.ppm", 2, "--sun"},
     {"DetailNoSwitch", "render SCENE --detail maybe -o a.ppm", 2, "--detail"},
+    {"SourceUnknown", "render SCENE --source quadtree -o a.ppm", 2, "--source"},
+    {"BudgetOfAClipmap", "render SCENE --source clipmap --triangles 500 -o a.ppm", 1, "--source roam"},
     {"NegativeBudget", "mesh SCENE --triangles -5", 2, "--triangles"},
     {"AtWithoutOutput", "mesh SCENE --at 3", 2, "--output"},
     {"OutputWithoutAt", "mesh SCENE -o a.ply", 2, "--at"},

@@ -98,7 +98,9 @@ TEST(ShaderResolver, ShippedShadersAreStrictGlsl) {
   if (std::system("glslangValidator --version > /dev/null 2>&1") != 0)
     GTEST_SKIP() << "glslangValidator is not installed";
   const ShaderLibrary library;
-  for (const char* file : {"terrain.vert.glsl", "terrain.frag.glsl", "sky.vert.glsl", "sky.frag.glsl"}) {
+  for (const char* file : {"terrain.vert.glsl", "terrain.frag.glsl", "sky.vert.glsl", "sky.frag.glsl",
+                           "terrain_clipmap.vert.glsl", "seed_count.comp.glsl", "seed_edges.comp.glsl",
+                           "seed_bins.comp.glsl", "seed_layout.comp.glsl", "seed_records.comp.glsl"}) {
     const std::string name(file);
     const std::string stage = name.substr(name.find('.') + 1, 4);
     const std::filesystem::path path =

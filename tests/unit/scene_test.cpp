@@ -375,6 +375,18 @@ TEST(Scene, LargestHueStaysBelowAFullTurn) {
   EXPECT_LT(scene->layers[0].species[0].reference_hsv.x, 1.0f);
 }
 
+TEST(Scene, SourcesOfTerrain) {
+  const std::string meadow = "[terrain]\ngenerator = \"meadow\"\n";
+  EXPECT_EQ(parse_scene(meadow, "t.toml")->source, TerrainSource::roam);
+  EXPECT_EQ(parse_scene(meadow + "source = \"roam\"\n", "t.toml")->source, TerrainSource::roam);
+  EXPECT_EQ(parse_scene(meadow + "source = \"clipmap\"\n", "t.toml")->source, TerrainSource::clipmap);
+  EXPECT_TRUE(parse_scene("[terrain]\nworld = \"w\"\nsource = \"clipmap\"\n", "t.toml"));
+  for (const char* line : {"source = \"clipmaps\"", "source = \"\"", "source = 1", "source = true"})
+    expect_error(meadow + line + "\n", 3, "expected \"roam\" or \"clipmap\"");
+  for (const std::string key : {"max_triangles", "target_px"})
+    expect_error(meadow + "source = \"clipmap\"\n" + key + " = 100\n", 4, key + " has no effect on a clipmap");
+}
+
 TEST(Scene, Worlds) {
   const auto scene = parse_scene("[terrain]\nworld = \"tiles/w\"\nmemory_mb = 1500.5\nworth_px = 2\n", "t.toml");
   ASSERT_TRUE(scene) << scene.error().message;

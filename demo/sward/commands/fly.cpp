@@ -210,6 +210,7 @@ Command add_fly(CLI::App& parent) {
       "frame_ms runs from the first call to the GPU's last, with nothing of the next frame overlapped. The first\n"
       "frame is drawn once before the clock runs. plants are counted outside of the clock.");
   add_scene_options(*app, options->scene, true);
+  add_source_option(*app, options->scene);
   add_sun_option(*app, options->scene);
   add_shaders_option(*app, options->scene);
   add_path_options(*app, options->path);

@@ -171,6 +171,8 @@ Expected<void> mesh(const MeshOptions& options) {
 
 Command add_mesh(CLI::App& parent) {
   auto options = std::make_shared<MeshOptions>();
+  // Of the mesh, whatever draws the scene's ground.
+  options->scene.source = "roam";
   CLI::App* app = parent.add_subcommand("mesh", "Run the terrain mesh alone over a camera path, without GL");
   add_scene_options(*app, options->scene, false);
   add_wait_option(*app, options->wait);

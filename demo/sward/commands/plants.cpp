@@ -149,6 +149,7 @@ Command add_plants(CLI::App& parent) {
   add_scene_options(*app, options->scene, true);
   add_path_options(*app, options->path);
   add_season_option(*app, options->scene);
+  add_source_option(*app, options->scene);
   CLI::App* what = app->add_option_group("Frame or place");
   what->require_option(1);
   what->add_option("--at", options->at, "Frame of the flight")->type_name("FRAME");

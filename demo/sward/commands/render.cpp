@@ -90,6 +90,7 @@ Command add_render(CLI::App& parent) {
   add_sun_option(*app, options->scene);
   add_shaders_option(*app, options->scene);
   add_season_option(*app, options->scene);
+  add_source_option(*app, options->scene);
   app->add_option("--size", options->size, "Pixels")
       ->type_name("WxH")
       ->check(as_check(parse_size))

@@ -38,6 +38,10 @@ constexpr FigureColumn k_columns[] = {
     {"squares_failing", &FrameFigures::squares_failing},
     {"world_mb", &FrameFigures::world_mb},
     {"cpu_stream_ms", &FrameFigures::cpu_stream_ms},
+    {"clipmap_blocks", &FrameFigures::clipmap_blocks},
+    {"clipmap_finest", &FrameFigures::clipmap_finest},
+    {"clipmap_points", &FrameFigures::clipmap_points},
+    {"clipmap_bytes", &FrameFigures::clipmap_bytes},
 };
 
 double percentile(const std::vector<double>& sorted, double share) {
@@ -64,7 +68,7 @@ FrameFigures make_figures(const host::SceneFrameStats& stats, double time_s, dou
   if (stats.vegetation.fragments) figures.grow_fragments = double(*stats.vegetation.fragments);
   figures.splits = stats.roam.splits;
   figures.merges = stats.roam.merges;
-  figures.bound_px = double(stats.bound_px);
+  if (!stats.clipmap) figures.bound_px = double(stats.bound_px);
   figures.cpu_roam_ms = stats.cpu_roam_ms;
   figures.cpu_seeding_ms = stats.cpu_seeding_ms;
   figures.gpu_terrain_ms = stats.gpu_terrain_ms;
@@ -72,6 +76,12 @@ FrameFigures make_figures(const host::SceneFrameStats& stats, double time_s, dou
   figures.gpu_grow_ms = stats.gpu_grow_ms;
   figures.frame_ms = frame_ms;
   figures.peak_rss_mb = peak_rss_mb();
+  if (stats.clipmap) {
+    figures.clipmap_blocks = stats.clipmap->blocks;
+    figures.clipmap_finest = stats.clipmap->finest;
+    figures.clipmap_points = double(stats.clipmap->upload.points);
+    figures.clipmap_bytes = double(stats.clipmap->upload.bytes);
+  }
   if (!stats.world) return figures;
   figures.squares_resident = stats.world->resident;
   figures.squares_wanted = stats.world->wanted;

@@ -27,6 +27,8 @@ struct FrameFigures {
   Figure bound_px;
   Figure squares_resident, squares_wanted, squares_failing, world_mb;  ///< Empty where the ground is no world.
   Figure cpu_stream_ms;                                                ///< The same.
+  Figure clipmap_blocks, clipmap_finest;  ///< Drawn; the finest ring drawn. Empty where the terrain's source is a mesh.
+  Figure clipmap_points, clipmap_bytes;   ///< Read and sent in the frame.
   Figure cpu_roam_ms, cpu_seeding_ms;
   Figure gpu_terrain_ms, gpu_classify_ms, gpu_grow_ms;
   Figure frame_ms;  ///< From the first call to the GPU's last.

@@ -33,8 +33,15 @@ void show_statistics(const host::SceneFrameStats& stats, double frame_ms) {
   show_time("terrain (GPU)", stats.gpu_terrain_ms);
   show_time("classify (GPU)", stats.gpu_classify_ms);
   show_time("grow (GPU)", stats.gpu_grow_ms);
-  ImGui::Text("terrain triangles  %u (%u splits, %u merges)", stats.roam.visible, stats.roam.splits, stats.roam.merges);
-  ImGui::Text("error bound        %.2f px", double(stats.bound_px));
+  if (stats.clipmap) {
+    ImGui::Text("terrain triangles  %u in %u blocks", stats.roam.visible, stats.clipmap->blocks);
+    ImGui::Text("rings              %d to %d, %zu points read", stats.clipmap->finest, stats.clipmap->rings - 1,
+                stats.clipmap->upload.points);
+  } else {
+    ImGui::Text("terrain triangles  %u (%u splits, %u merges)", stats.roam.visible, stats.roam.splits,
+                stats.roam.merges);
+    ImGui::Text("error bound        %.2f px", double(stats.bound_px));
+  }
   if (stats.world) show_world(*stats.world);
   ImGui::Text("fixed triangles    %u", stats.fixed_triangles);
   ImGui::Text("clusters           %u of %u fertile", stats.vegetation.clusters_fertile,
@@ -58,7 +65,7 @@ void edit_light_and_budget(PanelState& state) {
     ImGui::SliderFloat("season", &state.season, 0, 1, "%.3f");
     ImGui::SliderFloat("haze", &state.haze_distance_m, 500, 100000, "%.0f m", ImGuiSliderFlags_Logarithmic);
   }
-  if (!ImGui::CollapsingHeader("Terrain budget", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  if (!state.has_mesh || !ImGui::CollapsingHeader("Terrain budget", ImGuiTreeNodeFlags_DefaultOpen)) return;
   state.budget_changed |=
       ImGui::SliderInt("triangles", &state.max_triangles, 1000, 200000, "%d", ImGuiSliderFlags_Logarithmic);
   state.budget_changed |= ImGui::SliderFloat("error target", &state.target_px, 0, 8, "%.1f px");

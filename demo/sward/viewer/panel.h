@@ -17,6 +17,7 @@ struct PanelState {
   float haze_distance_m = 12000;
   float season = 0;  ///< Time of the year, 0..1.
   std::vector<GroundSeason> ground_seasons;
+  bool has_mesh = true;  ///< The ground is a mesh with a budget, no clipmap.
   int max_triangles = 20000;
   float target_px = 0;
   bool vegetation = true;

@@ -48,6 +48,7 @@ PanelState start_panel(const Scene& scene) {
   state.haze_distance_m = scene.haze_distance_m;
   state.season = scene.season;
   state.ground_seasons = scene.ground_seasons;
+  state.has_mesh = scene.source == TerrainSource::roam;
   state.max_triangles = int(scene.max_triangles);
   state.target_px = scene.target_px;
   state.layers = scene.layers;
@@ -165,6 +166,7 @@ Command add_view(CLI::App& parent) {
   auto options = std::make_shared<ViewOptions>();
   CLI::App* app = parent.add_subcommand("view", "Walk and fly through a scene in a window");
   add_scene_options(*app, options->scene, true);
+  add_source_option(*app, options->scene);
   add_camera_option(*app, options->scene);
   add_sun_option(*app, options->scene);
   add_shaders_option(*app, options->scene);

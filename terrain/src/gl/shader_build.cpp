@@ -70,11 +70,12 @@ Expected<Shader> compile(GLenum stage, const ProgramDesc& desc, const std::strin
 
 Expected<Program> ShaderLibrary::build(const ProgramDesc& desc) const {
   if (Expected<void> context = require_context(); !context) return tl::unexpected(context.error());
-  const std::array<std::pair<GLenum, const std::string*>, 5> stages{{{GL_VERTEX_SHADER, &desc.vertex},
+  const std::array<std::pair<GLenum, const std::string*>, 6> stages{{{GL_VERTEX_SHADER, &desc.vertex},
                                                                      {GL_TESS_CONTROL_SHADER, &desc.tess_control},
                                                                      {GL_TESS_EVALUATION_SHADER, &desc.tess_evaluation},
                                                                      {GL_GEOMETRY_SHADER, &desc.geometry},
-                                                                     {GL_FRAGMENT_SHADER, &desc.fragment}}};
+                                                                     {GL_FRAGMENT_SHADER, &desc.fragment},
+                                                                     {GL_COMPUTE_SHADER, &desc.compute}}};
   Program program(glCreateProgram());
   label(GL_PROGRAM, program.id(), desc.name);
   std::vector<Shader> shaders;

@@ -5,48 +5,14 @@
 
 #include <cstddef>
 
+#include "terrain_gl/ground_shading.h"
+
 namespace sward {
 
 namespace {
 
-/// Uniform locations of terrain.vert.glsl and terrain.frag.glsl.
-enum Location : GLint {
-  k_origin_from_eye = 0,
-  k_base_map_transform,
-  k_slope_windows,
-  k_data_rectangle,
-  k_morph_time,
-  k_slope_map_transform
-};
-
-/// Takes positions relative to the eye to texture coordinates of a map whose v counts from the north: uv = xy * p + zw.
-glm::vec4 map_transform(const glm::dvec3& eye, const glm::dvec2& map_min, const glm::dvec2& map_size) {
-  return {1.0 / map_size.x, -1.0 / map_size.y, (eye.x - map_min.x) / map_size.x,
-          (map_min.y + map_size.y - eye.y) / map_size.y};
-}
-
-void set_vec4(const gl::Program& program, Location location, const glm::vec4& value) {
-  glProgramUniform4f(program.id(), location, value.x, value.y, value.z, value.w);
-}
-
-void set_slopes(const gl::Program& program, const glm::dvec3& eye, const gl::SlopeMap& slopes) {
-  for (int layer = 0; layer < slopes.layers(); ++layer) {
-    const glm::dvec2 size = slopes.layer_size(layer), from_min = glm::dvec2(eye) - slopes.layer_min(layer);
-    glm::dvec2 place(from_min.x / size.x, 1.0 - from_min.y / size.y);
-    // Windows repeat: whole periods are left out before precision is.
-    if (slopes.repeats()) place = glm::fract(place);
-    glProgramUniform4f(program.id(), k_slope_map_transform + layer, float(1.0 / size.x), float(-1.0 / size.y),
-                       float(place.x), float(place.y));
-  }
-  const glm::dvec2 spacing = slopes.spacing();
-  glProgramUniform4f(program.id(), k_slope_windows, float(1.0 / spacing.x), float(1.0 / spacing.y),
-                     float(slopes.reach()), float(slopes.layers()));
-}
-
-/// Binds a uniform buffer to its index alone: glBindBufferBase would change the general binding as well.
-void bind_uniforms(GLuint index, GLuint buffer) {
-  glBindBuffersBase(GL_UNIFORM_BUFFER, index, 1, &buffer);
-}
+/// Uniform locations of terrain.vert.glsl.
+enum Location : GLint { k_origin_from_eye = 0, k_morph_time = 4 };
 
 }  // namespace
 
@@ -110,25 +76,12 @@ size_t TerrainRenderer::upload(const RoamMesh& mesh) {
 void TerrainRenderer::draw(const View& view, const gl::Frame& frame, const gl::GroundTextures& ground) {
   if (index_count_ == 0) return;
   const glm::vec3 origin_from_eye(origin_ - view.eye);
-  const glm::dvec2 eye(view.eye);
   glProgramUniform3f(program_.id(), k_origin_from_eye, origin_from_eye.x, origin_from_eye.y, origin_from_eye.z);
-  set_vec4(program_, k_base_map_transform, map_transform(view.eye, ground.map_min(), ground.map_size()));
-  set_slopes(program_, view.eye, ground.slopes());
-  set_vec4(program_, k_data_rectangle,
-           glm::vec4(glm::vec2(ground.data_min() - eye), glm::vec2(ground.data_max() - eye)));
-
   glProgramUniform1f(program_.id(), k_morph_time, morph_time_);
-  glUseProgram(program_.id());
+  const GroundShading shading(program_, bindings_, view, frame, ground);
   glBindVertexArray(vertex_array_.id());
-  bind_uniforms(bindings_.frame, frame.buffer());
-  glBindTextureUnit(bindings_.base_map, ground.base_map());
-  glBindTextureUnit(bindings_.slope_map, ground.slopes().texture());
   glDrawElements(GL_TRIANGLES, GLsizei(index_count_), GL_UNSIGNED_INT, nullptr);
-  glBindTextureUnit(bindings_.slope_map, 0);
-  glBindTextureUnit(bindings_.base_map, 0);
-  bind_uniforms(bindings_.frame, 0);
   glBindVertexArray(0);
-  glUseProgram(0);
 }
 
 }  // namespace sward

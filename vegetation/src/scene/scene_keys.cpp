@@ -88,6 +88,13 @@ Expected<void> check_terrain(const toml::table& table, const Scene& scene, const
     return context.fail_at(
         table, "[terrain] has no ground, expected generator = \"meadow\", height = \"FILE\" or world = \"FOLDER\"");
   }
+  if (scene.source == TerrainSource::clipmap) {
+    const auto no_mesh = refuse(table, {"max_triangles", "target_px"},
+                                "on a clipmap, whose triangles are those of its rings, expected only with source = "
+                                "\"roam\"",
+                                context);
+    if (!no_mesh) return no_mesh;
+  }
   if (!world) {
     const auto no_world =
         refuse(table, {"memory_mb", "worth_px"}, "on ground that is no world, expected only with world", context);
@@ -513,6 +520,8 @@ const Schema<Scene>& terrain_schema() {
        number("worth_px", &Scene::world_worth_px, at_least(0), "pixels"),
        whole_number("max_triangles", &Scene::max_triangles, within(2, k_most_uint32)),
        number("target_px", &Scene::target_px, at_least(0), "pixels"),
+       choice<Scene, TerrainSource>("source", &Scene::source,
+                                    {{"roam", TerrainSource::roam}, {"clipmap", TerrainSource::clipmap}}),
        table<Scene, ReliefOptions>("relief", &Scene::relief, relief_schema())},
       check_terrain};
   return schema;

@@ -3,6 +3,7 @@
 
 #include <sward/vegetation/vegetation_renderer.h>
 
+#include <sward/vegetation/clipmap_seeding.h>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -33,7 +34,8 @@ struct VegetationRenderer::Impl {
   ClassificationStage classification;
   GrowthStage growth;
   ReadBackStage read_back;
-  TriangleBuffers triangles;
+  TriangleBuffers buffers;
+  TriangleTextures triangles;
   PlacementTextures placement;
   gl::Buffer species;
   std::array<StageQueries, k_query_frames> queries;
@@ -42,7 +44,10 @@ struct VegetationRenderer::Impl {
 
   View view;
   std::array<DensityBin, k_density_bins> bins{};
+  GLuint draws = 0;  // of a seeding on the GPU, else 0
+  size_t draws_offset = 0;
   uint32_t clusters = 0;
+  bool on_clipmap = false;
   bool uploaded = false, classified = false, season_changed = false;
 
   /// The species as the season has them: what is drawn goes by what was classified.
@@ -51,6 +56,11 @@ struct VegetationRenderer::Impl {
     const SpeciesBlock block = make_species_block(layer);
     glNamedBufferSubData(species.id(), GLintptr(offsetof(SpeciesBlock, species)), GLsizeiptr(sizeof block.species),
                          block.species.data());
+  }
+
+  ClusterDraws cluster_draws() const {
+    if (draws != 0) return {{}, draws, draws_offset};
+    return {bins};
   }
 
   StageInputs inputs(const gl::Frame& frame, const gl::GroundTextures& ground) const {
@@ -84,12 +94,23 @@ Expected<VegetationRenderer> VegetationRenderer::create(const Layer& layer, cons
            .classification = std::move(*classification),
            .growth = std::move(*growth),
            .read_back = std::move(*read_back),
-           .triangles = TriangleBuffers::create(),
+           .buffers = TriangleBuffers::create(),
+           .triangles = {},
            .placement = std::move(*placement),
            .species = make_buffer(sizeof species, &species, GL_DYNAMIC_STORAGE_BIT),
            .queries = {StageQueries::create(streams), StageQueries::create(streams), StageQueries::create(streams)},
            .last_stats = {},
            .view = {}}));
+}
+
+Expected<VegetationRenderer> VegetationRenderer::create_for_clipmap(const Layer& layer,
+                                                                    const gl::ShaderLibrary& shaders,
+                                                                    const gl::Bindings& bindings) {
+  gl::ShaderLibrary library = shaders;
+  library.add_source("drawn_surface.glsl", "#include \"drawn_surface_clipmap.glsl\"\n");
+  auto renderer = create(layer, library, bindings);
+  if (renderer) renderer->impl_->on_clipmap = true;
+  return renderer;
 }
 
 const Layer& VegetationRenderer::layer() const {
@@ -100,14 +121,29 @@ Expected<void> VegetationRenderer::upload(const Seeding& seeding, const FixedTri
   Impl& self = *impl_;
   self.uploaded = false;
   self.classified = false;
-  if (auto written = self.triangles.write(seeding.records, triangles.nodes(), seeding.exclusions); !written)
+  SWARD_ASSERT(!self.on_clipmap, "a renderer for clipmaps takes seedings of the GPU");
+  if (auto written = self.buffers.write(seeding.records, triangles.nodes(), seeding.exclusions); !written)
     return written;
+  self.triangles = TriangleTextures(self.buffers);
   self.classification.reserve(seeding.clusters);
   self.view = view;
   self.bins = seeding.bins;
   self.clusters = seeding.clusters;
   self.uploaded = true;
   return {};
+}
+
+void VegetationRenderer::upload(const ClipmapSeeder& seeder, const gl::Clipmap& clipmap, const View& view) {
+  Impl& self = *impl_;
+  SWARD_ASSERT(self.on_clipmap, "make a renderer for clipmaps with create_for_clipmap()");
+  SWARD_ASSERT(seeder.seeded(), "seed before uploading");
+  self.triangles = {seeder.records(), seeder.exclusions(), {clipmap.block(), clipmap.heights()}};
+  self.classification.reserve(seeder.most_clusters());
+  self.view = view;
+  self.draws = seeder.draws();
+  self.draws_offset = seeder.draws_offset();
+  self.uploaded = true;
+  self.classified = false;
 }
 
 void VegetationRenderer::classify(const gl::Frame& frame, const gl::GroundTextures& ground,
@@ -123,7 +159,7 @@ void VegetationRenderer::classify(const gl::Frame& frame, const gl::GroundTextur
   self.query_frame = (self.query_frame + 1) % k_query_frames;
   StageQueries& queries = self.queries[self.query_frame];
   queries.begin_frame(self.clusters);
-  self.classification.run(self.inputs(frame, ground), self.bins, queries, restore_framebuffer);
+  self.classification.run(self.inputs(frame, ground), self.cluster_draws(), queries, restore_framebuffer);
   self.classified = true;
 }
 
@@ -171,7 +207,8 @@ Expected<std::vector<Plant>> VegetationRenderer::read_back(const gl::Frame& fram
                                                            GLuint restore_framebuffer) {
   Impl& self = *impl_;
   if (!self.classified) return fail("no plants to read back: nothing was classified since the last upload");
-  if (seeding.clusters != self.clusters) return fail("the plants to read back come from another seeding");
+  if (!self.on_clipmap && seeding.clusters != self.clusters)
+    return fail("the plants to read back come from another seeding");
   const std::vector<uint32_t> fertile = self.queries[self.query_frame].fertile();
   return self.read_back.run(self.inputs(frame, ground), self.classification, fertile, view, seeding,
                             restore_framebuffer);

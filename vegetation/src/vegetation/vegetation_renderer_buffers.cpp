@@ -110,8 +110,8 @@ void FeedbackPass::reserve(size_t clusters) {
 }
 
 StageBindings::StageBindings(const gl::Bindings& bindings, GLuint frame, GLuint species,
-                             std::initializer_list<Unit> units)
-    : bindings_(bindings) {
+                             std::initializer_list<Unit> units, TriangleTextures::Clipmap clipmap)
+    : bindings_(bindings), clipmap_(clipmap.block != 0) {
   glBindBufferBase(GL_UNIFORM_BUFFER, bindings.frame, frame);
   glBindBufferBase(GL_UNIFORM_BUFFER, bindings.species, species);
   for (const Unit& unit : units) {
@@ -119,10 +119,16 @@ StageBindings::StageBindings(const gl::Bindings& bindings, GLuint frame, GLuint 
     glBindSampler(unit.unit, 0);
     units_[count_++] = unit.unit;
   }
+  if (!clipmap_) return;
+  glBindBufferBase(GL_UNIFORM_BUFFER, bindings.clipmap, clipmap.block);
+  glBindTextureUnit(bindings.clipmap_heights, clipmap.heights);
+  glBindSampler(bindings.clipmap_heights, 0);
+  units_[count_++] = bindings.clipmap_heights;
 }
 
 StageBindings::~StageBindings() {
   for (size_t i = 0; i < count_; ++i) glBindTextureUnit(units_[i], 0);
+  if (clipmap_) glBindBufferBase(GL_UNIFORM_BUFFER, bindings_.clipmap, 0);
   glBindBufferBase(GL_UNIFORM_BUFFER, bindings_.species, 0);
   glBindBufferBase(GL_UNIFORM_BUFFER, bindings_.frame, 0);
 }

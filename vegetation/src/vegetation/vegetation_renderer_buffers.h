@@ -54,6 +54,28 @@ class TriangleBuffers {
   size_t max_texels_ = 65536;
 };
 
+/// What the stages read triangles and the drawn surface from: a frame's uploaded buffers, or what was seeded on the GPU
+/// over a clipmap. Names of objects that others own.
+class TriangleTextures {
+ public:
+  struct Clipmap {
+    GLuint block = 0, heights = 0;  ///< 0: the surface comes as nodes.
+  };
+  TriangleTextures() = default;
+  explicit TriangleTextures(const TriangleBuffers& buffers)
+      : records_(buffers.records()), surface_(buffers.surface()), exclusions_(buffers.exclusions()) {}
+  TriangleTextures(GLuint records, GLuint exclusions, Clipmap clipmap)
+      : records_(records), exclusions_(exclusions), clipmap_(clipmap) {}
+  GLuint records() const { return records_; }
+  GLuint surface() const { return surface_; }
+  GLuint exclusions() const { return exclusions_; }
+  Clipmap clipmap() const { return clipmap_; }
+
+ private:
+  GLuint records_ = 0, surface_ = 0, exclusions_ = 0;
+  Clipmap clipmap_;
+};
+
 inline constexpr int k_streams = 4;
 /// Bytes of a fed-back cluster: record, cluster, s', z.
 inline constexpr size_t k_cluster_bytes = 16;
@@ -83,15 +105,17 @@ class StageBindings {
   struct Unit {
     GLuint unit, texture;
   };
-  StageBindings(const gl::Bindings& bindings, GLuint frame, GLuint species, std::initializer_list<Unit> units);
+  StageBindings(const gl::Bindings& bindings, GLuint frame, GLuint species, std::initializer_list<Unit> units,
+                TriangleTextures::Clipmap clipmap = {});
   ~StageBindings();
   StageBindings(const StageBindings&) = delete;
   StageBindings& operator=(const StageBindings&) = delete;
 
  private:
   const gl::Bindings& bindings_;
-  std::array<GLuint, 10> units_{};
+  std::array<GLuint, 16> units_{};
   size_t count_ = 0;
+  bool clipmap_ = false;
 };
 
 /// A buffer of fixed size without a mapping; `flags` as for glNamedBufferStorage.

@@ -86,7 +86,7 @@ void ClassificationStage::reserve(size_t clusters) {
   for (FeedbackPass& pass : passes_) pass.reserve(clusters);
 }
 
-void ClassificationStage::run(const StageInputs& inputs, std::span<const DensityBin> bins, StageQueries& queries,
+void ClassificationStage::run(const StageInputs& inputs, const ClusterDraws& draws, StageQueries& queries,
                               GLuint restore_framebuffer) {
   const gl::Bindings& units = inputs.bindings;
   const StageBindings bound(units, inputs.frame.buffer(), inputs.species,
@@ -99,21 +99,25 @@ void ClassificationStage::run(const StageInputs& inputs, std::span<const Density
   glEnable(GL_RASTERIZER_DISCARD);
   glUseProgram(program_.id());
   glBindVertexArray(vertex_array_.id());
-  for (int pass = 0; pass < int(passes_.size()); ++pass) run_pass(pass, bins, queries);
+  if (draws.commands != 0) glBindBuffer(GL_DRAW_INDIRECT_BUFFER, draws.commands);
+  for (int pass = 0; pass < int(passes_.size()); ++pass) run_pass(pass, draws, queries);
+  if (draws.commands != 0) glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
   glBindVertexArray(0);
   glUseProgram(0);
   glDisable(GL_RASTERIZER_DISCARD);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, restore_framebuffer);
 }
 
-void ClassificationStage::run_pass(int pass, std::span<const DensityBin> bins, StageQueries& queries) {
+void ClassificationStage::run_pass(int pass, const ClusterDraws& draws, StageQueries& queries) {
   const size_t first = size_t(pass) * k_streams;
   const size_t last = std::min(first + k_streams, places_.size());
   glProgramUniform1i(program_.id(), k_first_growing_location, GLint(first));
   glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, passes_[size_t(pass)].id());
   for (size_t i = first; i < last; ++i) queries.begin_stream(places_[i], i);
   glBeginTransformFeedback(GL_POINTS);
-  for (const DensityBin& bin : bins)
+  if (draws.commands != 0)
+    glMultiDrawArraysIndirect(GL_POINTS, reinterpret_cast<const void*>(draws.offset), k_density_bins, 0);
+  for (const DensityBin& bin : draws.bins)
     if (bin.clusters > 0) draw_bin(bin);
   glEndTransformFeedback();
   for (size_t i = first; i < last; ++i) queries.end_stream(places_[i]);

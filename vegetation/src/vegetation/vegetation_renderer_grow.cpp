@@ -179,7 +179,8 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
                              {units.placement, inputs.placement.masks()},
                              {units.blade_shape, blade_shape_.id()},
                              {units.plant_images, image_array_.texture()},
-                             {units.plant_mesh, 0}});
+                             {units.plant_mesh, 0}},
+                            inputs.triangles.clipmap());
   glPatchParameteri(GL_PATCH_VERTICES, 1);
   glBindVertexArray(vertex_array_.id());
   for (size_t i = 0; i < classified.places().size(); ++i) {

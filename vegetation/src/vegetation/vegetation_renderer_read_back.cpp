@@ -81,7 +81,8 @@ std::vector<Plant> ReadBackStage::run(const StageInputs& inputs, const Classific
                              {units.triangles, inputs.triangles.records()},
                              {units.surface, inputs.triangles.surface()},
                              {units.exclusions, inputs.triangles.exclusions()},
-                             {units.placement, inputs.placement.masks()}});
+                             {units.placement, inputs.placement.masks()}},
+                            inputs.triangles.clipmap());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.id());
   glEnable(GL_RASTERIZER_DISCARD);
   glUseProgram(program_.id());

@@ -36,7 +36,7 @@ struct StageInputs {
   const gl::Bindings& bindings;
   const gl::Frame& frame;
   const gl::GroundTextures& ground;
-  const TriangleBuffers& triangles;
+  const TriangleTextures& triangles;
   const PlacementTextures& placement;
   GLuint species;
 };
@@ -64,18 +64,24 @@ class StageQueries {
   bool classified_ = false, drawn_ = false;
 };
 
+/// The draws of a classification: bins of the CPU's seeding, or, where `commands` is not 0, 32 commands in a buffer.
+struct ClusterDraws {
+  std::span<const DensityBin> bins;
+  GLuint commands = 0;
+  size_t offset = 0;
+};
+
 class ClassificationStage {
  public:
   static Expected<ClassificationStage> create(const Layer& layer, const gl::ShaderLibrary& shaders,
                                               const gl::Bindings& bindings);
   void reserve(size_t clusters);
-  void run(const StageInputs& inputs, std::span<const DensityBin> bins, StageQueries& queries,
-           GLuint restore_framebuffer);
+  void run(const StageInputs& inputs, const ClusterDraws& draws, StageQueries& queries, GLuint restore_framebuffer);
   std::span<const StreamPlace> places() const { return places_; }
   const FeedbackPass& pass(int index) const { return passes_[size_t(index)]; }
 
  private:
-  void run_pass(int pass, std::span<const DensityBin> bins, StageQueries& queries);
+  void run_pass(int pass, const ClusterDraws& draws, StageQueries& queries);
 
   std::vector<StreamPlace> places_;
   std::vector<FeedbackPass> passes_;

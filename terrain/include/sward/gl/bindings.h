@@ -15,6 +15,14 @@ struct Bindings {
   // Uniform buffers.
   GLuint frame = 0;         ///< SwardFrame
   GLuint species = 1;       ///< SwardSpecies
+  GLuint clipmap = 2;       ///< SwardClipmap
+  GLuint seeding = 3;       ///< SwardSeeding
+  // Shader storage buffers.
+  GLuint seed_ground = 0;   ///< What is static of candidate triangles
+  GLuint seed_counts = 1;   ///< Seeds of each
+  GLuint seed_groups = 2;   ///< Bin sizes of work groups
+  GLuint seed_frame = 3;    ///< Bins and draws
+  GLuint seed_records = 4;  ///< Triangle records
   // Texture units.
   GLuint base_map = 0;      ///< sRGB base map, filtered, decoded to linear
   GLuint base_map_raw = 1;  ///< the same texels, encoded, for texelFetch
@@ -23,6 +31,8 @@ struct Bindings {
   GLuint surface = 4;       ///< RGBA32UI buffer texture: surface nodes
   GLuint blade_shape = 5;   ///< RGBA32F blade shapes
   GLuint plant_images = 6;  ///< R8 array: details and cutouts of a layer's plants
+  GLuint clipmap_heights = 10;  ///< R32F array: heights of clipmap rings
+  GLuint clipmap_relief = 11;   ///< RG16F array: their relief's gradients
   GLuint plant_mesh = 13;   ///< RGBA32F buffer texture: the mesh of a plant
   GLuint placement = 14;    ///< RGBA32UI buffer texture: masks
   GLuint exclusions = 15;   ///< RGBA32F buffer texture: excluded shapes near triangles

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/gl/handles.h>
 #include <span>
 #include <string>
 #include <string_view>
-#include <sward/gl/handles.h>
 #include <vector>
 
 namespace sward::gl {
@@ -13,9 +13,9 @@ namespace sward::gl {
 /// Every file of shaders/, embedded at build time ("grass_blade.tese.glsl").
 std::span<const EmbeddedText> embedded_shaders();
 
-/// A stage's text with every `#include "name"` in place (each file once) and lines marked with `#line`; file numbers are
-/// indices into `files`. Includes are textual: they must not stand inside of #if. A file that includes itself, directly
-/// or through others, is an error. The one resolver for build and run time.
+/// A stage's text with every `#include "name"` in place (each file once) and lines marked with `#line`; file numbers
+/// are indices into `files`. Includes are textual: they must not stand inside of #if. A file that includes itself,
+/// directly or through others, is an error. The one resolver for build and run time.
 struct ResolvedSource {
   std::string text;
   std::vector<std::string> files;
@@ -32,6 +32,7 @@ struct ProgramDesc {
   std::vector<Define> defines;
   /// Captured outputs when they are not laid out in the shader by xfb_buffer; normally empty.
   std::vector<const char*> feedback_varyings;
+  std::string compute = {};  ///< Alone.
 };
 
 /// Where shader text comes from: files of an override directory first when one is set (for reloading), then further

@@ -9,6 +9,14 @@
 
 namespace sward {
 
+/// Lattice points first + stride (i, j), 0 <= i < count.x, 0 <= j < count.y: row by row, north first.
+struct LatticeGrid {
+  LatticePoint first{0};
+  int stride = 1;
+  glm::ivec2 count{0};
+  size_t size() const { return size_t(count.x) * size_t(count.y); }
+};
+
 /// What a RoamMesh refines over: heights and bounds of a whole field, or of a world of which only parts are resident.
 ///
 /// The same lattice point has the same height whatever is resident. Calls are const, made once for each vertex or
@@ -45,6 +53,12 @@ class Surface {
   /// first; beyond the data those of its edge. Strides above 1 may take differences over a stride, so that a slope
   /// stands for the ground around. `out` has count.x * count.y places.
   virtual void data_gradients(glm::ivec2 first, int stride, glm::ivec2 count, std::span<glm::vec2> out) const;
+
+  /// Heights of a grid from the finest data there is at this moment, metres above `base` (world); beyond the data those
+  /// of its edge. `out` has grid.size() places. Cost: that of height() for each.
+  virtual void grid_heights(const LatticeGrid& grid, double base, std::span<float> out) const;
+  /// relief_gradient() of the same points.
+  virtual void grid_relief(const LatticeGrid& grid, std::span<glm::vec2> out) const;
 };
 
 /// A field with its bounds, all of it resident. `bounds` and its field must outlive it.
@@ -64,6 +78,8 @@ class FieldSurface final : public Surface {
   glm::dvec2 data_gradient(glm::dvec2 xy) const override { return field_->data_gradient(xy); }
   bool all_holes(const LatticeBox& box) const override;
   double height(glm::dvec2 xy) const override { return field_->height(xy); }
+  void grid_heights(const LatticeGrid& grid, double base, std::span<float> out) const override;
+  void grid_relief(const LatticeGrid& grid, std::span<glm::vec2> out) const override;
   glm::dvec2 height_range() const override {
     return field_->height_range() + glm::dvec2(-1, 1) * field_->relief_amplitude();
   }

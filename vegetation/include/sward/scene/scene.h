@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/terrain/color_map.h>
+#include <sward/terrain/height_field.h>
+#include <sward/vegetation/species.h>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <sward/terrain/color_map.h>
-#include <sward/terrain/height_field.h>
-#include <sward/vegetation/species.h>
 #include <vector>
 
 namespace sward {
@@ -37,16 +37,22 @@ struct SceneSurface {
   std::optional<glm::vec3> color;  ///< sRGB, 0..1, in place of the vertex colours.
 };
 
+/// What draws the ground, and cuts the triangles that plants are seeded on.
+enum class TerrainSource {
+  roam,     ///< RoamMesh and TerrainRenderer; seeding on the CPU.
+  clipmap,  ///< gl::Clipmap and ClipmapRenderer; seeding on the GPU.
+};
+
 /// A scene as a TOML file names it. Paths are kept as written; resolve() makes them relative to the file's folder.
 struct Scene {
   std::string name;
-  std::string directory;        ///< Folder of the file, for relative paths; empty for built-in scenes.
+  std::string directory;  ///< Folder of the file, for relative paths; empty for built-in scenes.
 
   // [terrain]
   // The ground is one of generator, height_path and world_path; the other two are empty.
-  std::string generator;        ///< "meadow".
+  std::string generator;  ///< "meadow".
   uint32_t generator_seed = 1;
-  int generator_samples = 1025; ///< Along each side.
+  int generator_samples = 1025;  ///< Along each side.
   double generator_size_m = 4096;
   std::string height_path;
   glm::dvec2 spacing{1.0, 1.0};
@@ -54,26 +60,27 @@ struct Scene {
   bool has_no_data = false;
   double no_data = 0;
   glm::dvec3 origin{0.0};
-  std::string world_path;       ///< Folder of a baked world.
-  double world_memory_mb = 512; ///< WorldOptions::memory_bytes, in 2^20 bytes.
-  float world_worth_px = 0.5f;  ///< WorldOptions::worth_px.
+  std::string world_path;        ///< Folder of a baked world.
+  double world_memory_mb = 512;  ///< WorldOptions::memory_bytes, in 2^20 bytes.
+  float world_worth_px = 0.5f;   ///< WorldOptions::worth_px.
   ReliefOptions relief;
+  TerrainSource source = TerrainSource::roam;
   uint32_t max_triangles = 20000;
   float target_px = 0;
 
   // [base_map]
-  std::string texture_path;     ///< Empty: the generator's, or none.
+  std::string texture_path;  ///< Empty: the generator's, or none.
 
   // [sun], [haze], [camera]
   float sun_azimuth = 2.4f, sun_elevation = 0.6f;  ///< Radians.
   float haze_distance_m = 12000;
   glm::dvec3 camera{0.0, 0.0, 1.7};
-  bool camera_above_ground = true;                 ///< camera.z counts from the ground.
-  bool camera_from_middle = false;                 ///< camera.x, y count from the middle of the ground.
+  bool camera_above_ground = true;                             ///< camera.z counts from the ground.
+  bool camera_from_middle = false;                             ///< camera.x, y count from the middle of the ground.
   double camera_yaw = 0, camera_pitch = 0, fov_y = 0.8726646;  ///< Radians.
 
   // [season]
-  float season = 0;             ///< Time of the year, 0..1; every layer's Layer::season.
+  float season = 0;  ///< Time of the year, 0..1; every layer's Layer::season.
   std::vector<GroundSeason> ground_seasons;
 
   // [[layer]] with [[layer.species]]. Masks and distribution maps are named, not loaded.

@@ -13,10 +13,16 @@
 #include <optional>
 #include <vector>
 
+namespace sward::gl {
+class Clipmap;
+}
+
 namespace sward {
 
+class ClipmapSeeder;
+
 struct VegetationStats {
-  uint32_t clusters_submitted = 0;
+  uint32_t clusters_submitted = 0;  ///< 0 where the GPU has seeded: ClipmapSeeder::stats() tells.
   uint32_t clusters_fertile = 0;  ///< Fed back. From the GPU's queries of an earlier frame unless waited for.
   uint64_t primitives = 0;        ///< Triangles rasterised, shadows included (same remark).
   /// Runs of growth's fragment shaders (same remark); none where the driver cannot count them
@@ -32,6 +38,9 @@ class VegetationRenderer {
   /// shader's error (with the driver's log) and on a GL below 4.5.
   static Expected<VegetationRenderer> create(const Layer& layer, const gl::ShaderLibrary& shaders,
                                              const gl::Bindings& bindings = {});
+  /// The same for layers that are seeded on the GPU over a clipmap: plants stand on its drawn surface.
+  static Expected<VegetationRenderer> create_for_clipmap(const Layer& layer, const gl::ShaderLibrary& shaders,
+                                                         const gl::Bindings& bindings = {});
   VegetationRenderer(VegetationRenderer&&) noexcept;
   VegetationRenderer& operator=(VegetationRenderer&&) noexcept;
   ~VegetationRenderer();
@@ -52,6 +61,12 @@ class VegetationRenderer {
   /// (GL_MAX_TEXTURE_BUFFER_SIZE; records take 6 texels, surface nodes 1). Binds nothing. The arguments may go away
   /// afterwards.
   Expected<void> upload(const Seeding& seeding, const FixedTriangles& triangles, const View& view);
+
+  /// What takes the other upload()'s place in a renderer for clipmaps: nothing is copied, records and draws stay in the
+  /// seeder's buffers. Both must live, and neither seed nor follow another view, until the frame is drawn. classify()
+  /// then also binds the seeder's draws as GL_DRAW_INDIRECT_BUFFER and leaves 0 there; draw() and read_back() also bind
+  /// uniform buffer bindings.clipmap and texture bindings.clipmap_heights (without sampler) and leave 0. Binds nothing.
+  void upload(const ClipmapSeeder& seeder, const gl::Clipmap& clipmap, const View& view);
 
   /// Classifies the uploaded clusters into one feedback stream a species, by passes of four. Call after upload, before
   /// draw, once a frame. Binds: program, vertex array, transform feedback, draw framebuffer (its own, 1 x 1), uniform

@@ -1,0 +1,39 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sward/gl/clipmap.h>
+#include <sward/gl/frame.h>
+#include <sward/gl/ground.h>
+#include <sward/gl/shader_library.h>
+#include <vector>
+
+namespace sward {
+
+/// Draws clipmap rings with the shading of TerrainRenderer. GL thread.
+class ClipmapRenderer {
+ public:
+  static Expected<ClipmapRenderer> create(const gl::ShaderLibrary& shaders, const gl::Bindings& bindings = {});
+
+  /// Draws the blocks of the rings that may be seen into the bound framebuffer with one indexed, instanced draw, after
+  /// a follow() for this view. Binds: program, vertex array, uniform buffers bindings.frame, bindings.clipmap, textures
+  /// bindings.base_map, bindings.slope_map, bindings.clipmap_heights, bindings.clipmap_relief (the last two without
+  /// sampler). Sets: nothing else; the host chooses as with TerrainRenderer::draw(). Leaves: program 0, vertex array 0,
+  /// those texture units, their samplers and those uniform buffer bindings 0. Cost: 16 bytes a block are written, some
+  /// hundred blocks.
+  void draw(const View& view, const gl::Clipmap& clipmap, const gl::Frame& frame, const gl::GroundTextures& ground);
+
+  uint32_t triangles() const;  ///< Of the last draw, those included that the finer ring covers.
+  uint32_t blocks() const { return uint32_t(blocks_.size()); }
+
+ private:
+  gl::Bindings bindings_;
+  gl::Program program_;
+  gl::VertexArray vertex_array_;
+  gl::Buffer indices_, instances_;
+  size_t capacity_ = 0;
+  std::vector<ClipmapRings::Block> blocks_;
+  std::vector<glm::ivec4> instance_data_;
+};
+
+}  // namespace sward
