@@ -6,7 +6,7 @@
 
 namespace sward::host {
 
-/// Loads the masks and distribution maps that the scene's layers name. Each file is read once. Fails naming the file.
+/// Loads the masks and distribution maps that the scene's layers name, and its ground's detail textures. Each file is read once. Fails naming the file.
 Expected<void> load_maps(Scene& scene);
 
 }  // namespace sward::host

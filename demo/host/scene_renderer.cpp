@@ -156,6 +156,9 @@ Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTer
   if (!frame) return tl::unexpected(frame.error());
   auto ground = terrain.make_textures();
   if (!ground) return tl::unexpected(ground.error());
+  const auto materials = ground_materials(scene);
+  if (!materials) return tl::unexpected(materials.error());
+  if (auto set = ground->set_materials(*materials); !set) return tl::unexpected(set.error());
   auto library = with_kinds(shaders, scene.layers, scene.directory);
   if (!library) return tl::unexpected(library.error());
   auto programs = build_programs(scene.layers, *library, bindings);

@@ -473,7 +473,8 @@ const Schema<Scene>& terrain_schema() {
        number("worth_px", &Scene::world_worth_px, at_least(0), "pixels"),
        whole_number("max_triangles", &Scene::max_triangles, within(2, k_most_uint32)),
        number("target_px", &Scene::target_px, at_least(0), "pixels"),
-       table<Scene, ReliefOptions>("relief", &Scene::relief, relief_schema())},
+       table<Scene, ReliefOptions>("relief", &Scene::relief, relief_schema()),
+       flag("splatting", &Scene::splatting), materials_key()},
       check_terrain};
   return schema;
 }

@@ -90,7 +90,7 @@ class StageBindings {
 
  private:
   const gl::Bindings& bindings_;
-  std::array<GLuint, 10> units_{};
+  std::array<GLuint, 16> units_{};
   size_t count_ = 0;
 };
 

@@ -157,7 +157,10 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
                              {units.surface, inputs.triangles.surface()},
                              {units.exclusions, inputs.triangles.exclusions()},
                              {units.placement, inputs.placement.masks()},
-                             {units.blade_shape, blade_shape_.id()}});
+                             {units.blade_shape, blade_shape_.id()},
+                             {units.detail, inputs.ground.detail()},
+                             {units.detail_slope, inputs.ground.detail_slope()}});
+  glBindBufferBase(GL_UNIFORM_BUFFER, units.materials, inputs.ground.materials());
   glPatchParameteri(GL_PATCH_VERTICES, 1);
   glBindVertexArray(vertex_array_.id());
   for (size_t i = 0; i < classified.places().size(); ++i) {
@@ -172,6 +175,7 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
     }
   }
   set_stream(vertex_array_, 0);
+  glBindBufferBase(GL_UNIFORM_BUFFER, units.materials, 0);
   glBindVertexArray(0);
   glUseProgram(0);
 }

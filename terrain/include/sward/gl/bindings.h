@@ -15,6 +15,7 @@ struct Bindings {
   // Uniform buffers.
   GLuint frame = 0;         ///< SwardFrame
   GLuint species = 1;       ///< SwardSpecies
+  GLuint materials = 5;     ///< SwardMaterials
   // Texture units.
   GLuint base_map = 0;      ///< sRGB base map, filtered, decoded to linear
   GLuint base_map_raw = 1;  ///< the same texels, encoded, for texelFetch
@@ -22,6 +23,8 @@ struct Bindings {
   GLuint triangles = 3;     ///< RGBA32UI buffer texture: triangle records
   GLuint surface = 4;       ///< RGBA32UI buffer texture: surface nodes
   GLuint blade_shape = 5;   ///< RGBA32F blade shapes
+  GLuint detail = 12;        ///< RGBA8 array: the ground's detail textures
+  GLuint detail_slope = 13;  ///< RG8_SNORM array: their slopes
   GLuint placement = 14;    ///< RGBA32UI buffer texture: masks
   GLuint exclusions = 15;   ///< RGBA32F buffer texture: excluded shapes near triangles
 };

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <sward/terrain/color_map.h>
+#include <sward/terrain/ground_material.h>
 #include <sward/terrain/height_field.h>
 #include <sward/vegetation/species.h>
 #include <vector>
@@ -20,6 +21,15 @@ struct GroundSeason {
 
 /// The factor at a time of the year, between frames as season_values(); 1 without frames.
 glm::vec3 ground_tint(std::span<const GroundSeason> frames, float season);
+
+/// A material of the ground as a scene file names it.
+struct SceneMaterial {
+  GroundMaterial material;
+  std::string species;      ///< Whose reference colour and weights it has; empty: its own.
+  std::string detail_file;  ///< An image in place of the generated detail; empty: none. As all paths, not loaded.
+  std::string cliff_file;
+  std::string where;        ///< "FILE:LINE", for errors of the images.
+};
 
 /// A scene as a TOML file names it. Paths are kept as written; resolve() makes them relative to the file's folder.
 struct Scene {
@@ -45,6 +55,11 @@ struct Scene {
   uint32_t max_triangles = 20000;
   float target_px = 0;
 
+  bool splatting = true;        ///< Detail textures on the ground.
+
+  // [[terrain.material]]
+  std::vector<SceneMaterial> materials;  ///< Empty: default_ground_materials().
+
   // [base_map]
   std::string texture_path;     ///< Empty: the generator's, or none.
 
@@ -68,6 +83,11 @@ struct Scene {
 
   std::string resolve(const std::string& path) const;
 };
+
+/// What the ground of a scene is made of, for GroundTextures::set_materials: none without splatting; soil is added to a
+/// list of which nothing is everywhere. Fails where an
+/// image is named that has not been put into Scene::materials.
+Expected<std::vector<GroundMaterial>> ground_materials(const Scene& scene);
 
 /// Reads and checks a scene. Errors read "FILE:LINE: what is wrong, what was expected"; unknown keys, wrong types,
 /// values out of range and contradictions (a generator and a height file, say) are errors.
