@@ -12,7 +12,7 @@ struct MaterialParams {
   vec4 weights;    // of hue, saturation, value; least accepted score
   vec4 look;       // tiles in 1024 m on flat ground, on cliffs; strength; sharpness of borders
   vec4 layers;     // of the detail on flat ground, on cliffs; score where the ground is everywhere, else 0; unused
-  vec4 relief;     // slope of the detail's code 1 on flat ground, on cliffs (m/m); unused, unused
+  vec4 relief;     // slope of the detail's code 1 on flat ground, on cliffs (m/m); layers of the coarser scales
 };
 
 SWARD_FN float material_score(MaterialParams material, vec3 hsv) {

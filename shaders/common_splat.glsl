@@ -15,7 +15,7 @@
 #include "common_noise.glsl"
 
 layout(std140, binding = SWARD_BINDING_MATERIALS) uniform SwardMaterials {
-  vec4 head;  // materials; 1 where the textures' filter knows no anisotropy
+  vec4 head;  // materials; reads along a pixel's longer side: more than 1 where filters know no anisotropy
   MaterialParams material[k_most_materials];
 } sward_materials;
 
@@ -86,37 +86,61 @@ SplatPlace splat_place(vec3 relative_position, vec3 normal, float footprint, vec
 
 vec2 on_plane(vec3 v, int axis) { return axis == 2 ? v.xy : (axis == 1 ? v.xz : v.yz); }
 
-// Filters without anisotropy blur by the longer step: it is shortened towards the shorter one, as ground_footprint does.
-void even_out(inout vec2 dx, inout vec2 dy) {
-  if (sward_materials.head.y == 0.0) return;
+// Filters without anisotropy blur by the longer step: it is shortened towards the shorter one, as ground_footprint does,
+// and read in several places along it.
+struct SplatFilter {
+  vec2 du, dv;  // one read's
+  vec2 along;   // from one read to the next
+  float reads;
+};
+
+SplatFilter splat_filter(vec2 dx, vec2 dy) {
+  SplatFilter f;
+  f.du = dx;
+  f.dv = dy;
+  f.along = vec2(0.0);
+  f.reads = sward_materials.head.y;
+  if (f.reads <= 1.0) return f;
   float x = max(length(dx), 1.0e-9), y = max(length(dy), 1.0e-9);
-  if (x > y) dx *= pow(y / x, 0.45);
-  else dy *= pow(x / y, 0.45);
+  float part = pow(min(x, y) / max(x, y), 0.3);
+  f.along = (x > y ? dx : dy) * (part / f.reads);
+  part = max(part / f.reads, min(x, y) / max(x, y));
+  if (x > y) f.du *= part;
+  else f.dv *= part;
+  return f;
 }
 
-// Pieces of the texture are moved about, so that no tile is seen twice in a row: `variant` names the piece.
-vec2 piece_offset(float piece) { return fract(vec2(0.7548777, 0.5698403) * piece); }
+// Pieces of the texture are moved about, so that no tile is seen twice in a row: `piece` numbers them.
+vec4 read_piece(float layer, vec2 uv, SplatFilter f, float piece, bool relief, out vec2 slope) {
+  vec2 at = uv + fract(vec2(0.7548777, 0.5698403) * piece) - f.along * (0.5 * (f.reads - 1.0));
+  vec4 shade = vec4(0.0);
+  slope = vec2(0.0);
+  for (float i = 0.0; i < f.reads; i += 1.0) {
+    vec3 place = vec3(at + f.along * i, layer);
+    shade += textureGrad(sward_detail, place, f.du, f.dv);
+    if (relief) slope += textureGrad(sward_detail_slope, place, f.du, f.dv).rg;
+  }
+  slope /= f.reads;
+  return shade / f.reads;
+}
 
 SplatTap detail_tap(float layer, vec2 q, vec2 dx, vec2 dy, float variant, bool relief) {
-  SplatTap tap;
-  even_out(dx, dy);
+  SplatFilter f = splat_filter(vec2(dx.x, -dx.y), vec2(dy.x, -dy.y));
   float level = variant * 7.0 + 64.0;
   float piece = floor(level);
   float way = smoothstep(0.35, 0.65, level - piece);
   vec2 uv = vec2(q.x, -q.y);
-  vec2 du = vec2(dx.x, -dx.y), dv = vec2(dy.x, -dy.y);
   vec4 shade = vec4(0.0);
-  vec2 slope = vec2(0.0);
+  vec2 slope = vec2(0.0), read_slope;
   if (way < 1.0) {
-    vec3 at = vec3(uv + piece_offset(piece), layer);
-    shade = (1.0 - way) * textureGrad(sward_detail, at, du, dv);
-    if (relief) slope = (1.0 - way) * textureGrad(sward_detail_slope, at, du, dv).rg;
+    shade = (1.0 - way) * read_piece(layer, uv, f, piece, relief, read_slope);
+    slope = (1.0 - way) * read_slope;
   }
   if (way > 0.0) {
-    vec3 at = vec3(uv + piece_offset(piece + 1.0), layer);
-    shade += way * textureGrad(sward_detail, at, du, dv);
-    if (relief) slope += way * textureGrad(sward_detail_slope, at, du, dv).rg;
+    shade += way * read_piece(layer, uv, f, piece + 1.0, relief, read_slope);
+    slope += way * read_slope;
   }
+  SplatTap tap;
   tap.shade = shade.rgb * k_shade_unit;
   tap.height = shade.a;
   tap.slope = slope;
@@ -134,6 +158,7 @@ SplatTap plane_tap(MaterialParams m, SplatPlace place, int axis) {
   bool flat_plane = axis == 2;
   float tiles = flat_plane ? m.look.x : m.look.y;
   float layer = flat_plane ? m.layers.x : m.layers.y;
+  float coarse_layer = flat_plane ? m.relief.z : m.relief.w;
   vec2 q = on_plane(place.point, axis), dx = on_plane(place.across, axis), dy = on_plane(place.down, axis);
   vec3 variants = flat_plane ? place.variants
                              : vec3(ground_noise(q, 0.125, 21u).x, ground_noise(q, 0.03125, 22u).x, 0.0);
@@ -159,13 +184,13 @@ SplatTap plane_tap(MaterialParams m, SplatPlace place, int axis) {
   if (middle > 0.0) {
     // Strata stay level.
     mat2 grid = turned_grid(tiles / k_middle_step, flat_plane ? vec2(0.8, 0.6) : vec2(1.0, 0.0));
-    SplatTap tap = detail_tap(layer, grid * q, grid * dx, grid * dy, variants.y, false);
+    SplatTap tap = detail_tap(coarse_layer, grid * q, grid * dx, grid * dy, variants.y, false);
     sum.shade *= mix(vec3(1.0), tap.shade, 0.6 * middle * m.look.z);
     sum.height += 0.3 * middle * (tap.height - 0.5);
   }
   if (broad > 0.0) {
     mat2 grid = turned_grid(tiles / k_broad_step, flat_plane ? vec2(0.6, -0.8) : vec2(1.0, 0.0));
-    SplatTap tap = detail_tap(layer, grid * q, grid * dx, grid * dy, variants.z, false);
+    SplatTap tap = detail_tap(coarse_layer, grid * q, grid * dx, grid * dy, variants.z, false);
     sum.shade *= mix(vec3(1.0), tap.shade, 0.5 * broad * m.look.z);
   }
   return sum;

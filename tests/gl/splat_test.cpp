@@ -17,8 +17,8 @@ namespace {
 constexpr int k_side = 96;
 constexpr double k_fov = 0.8;
 
-// Outputs by `mode`: 0, shares of the colour that the fragment's place names; 1, what is put on the base map's colour at
-// the place of a plane that the pixel's ray meets.
+// Outputs by `mode`: 0, shares of the colour that the fragment's place names; 1, what is put on the base map's colour
+// at the place of a plane that the pixel's ray meets.
 constexpr const char* k_probe = R"(
 #include "common_ground.glsl"
 layout(location = 0) uniform int mode;

@@ -52,7 +52,9 @@ TEST(GroundMaterials, FourthAndFurtherScoresAreTakenOffTheThreeBest) {
   const float ground = 0.36f;
   std::vector<float> shares(materials.size());
   material_shares(materials, glm::vec3(ground), shares);
-  const auto s = [&](int i) { return std::pow(0.5 * std::abs((*materials[size_t(i)].reference_hsv).z - ground), -4.0); };
+  const auto s = [&](int i) {
+    return std::pow(0.5 * std::abs((*materials[size_t(i)].reference_hsv).z - ground), -4.0);
+  };
   const double sum = s(0) + s(1) + s(2) - 3 * s(3);
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(shares[size_t(i)], (s(i) - s(3)) / sum, 1e-4) << i;
   EXPECT_EQ(shares[3], 0);
@@ -220,7 +222,8 @@ TEST(DetailImages, WrongOnesAreRefused) {
     return texture ? std::string() : texture.error().message;
   };
   EXPECT_EQ(message(64, 64, {9, 9, 9, 255}), "");
-  EXPECT_EQ(message(64, 32, {9, 9, 9, 255}), "mud.png is 64 x 32 texels; a detail texture must be square: crop or scale it");
+  EXPECT_EQ(message(64, 32, {9, 9, 9, 255}),
+            "mud.png is 64 x 32 texels; a detail texture must be square: crop or scale it");
   EXPECT_NE(message(8, 8, {9, 9, 9, 255}).find("16 to 8192"), std::string::npos);
   EXPECT_NE(message(32, 32, {0, 0, 0, 255}).find("black"), std::string::npos);
   const auto unknown = generate_detail("moss");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <future>
 #include <string>
 
 #include "ground_textures.h"
@@ -13,6 +14,8 @@
 namespace sward::gl {
 
 namespace {
+
+constexpr float k_reads_without_anisotropy = 3;
 
 /// Mirror of SwardMaterials in shaders/common_splat.glsl.
 struct MaterialBlock {
@@ -26,18 +29,31 @@ static_assert(material_glsl::k_most_materials == k_max_materials);
 /// The different textures of a set of materials, each once.
 class Layers {
  public:
-  Expected<int> add(const std::shared_ptr<const DetailTexture>& given, const std::string& name) {
+  /// The number of a texture: `given`, or the generated one of this name.
+  int add(const std::shared_ptr<const DetailTexture>& given, const std::string& name) {
     const auto same = [&](const Layer& l) { return given ? l.texture == given : !l.name.empty() && l.name == name; };
     const auto known = std::find_if(layers_.begin(), layers_.end(), same);
     if (known != layers_.end()) return int(known - layers_.begin());
-    Layer layer{given, given ? std::string() : name};
-    if (!given) {
-      auto generated = generate_detail(name);
-      if (!generated) return tl::unexpected(generated.error());
-      layer.texture = std::make_shared<const DetailTexture>(std::move(*generated));
-    }
-    layers_.push_back(std::move(layer));
+    layers_.push_back({given, given ? std::string() : name});
     return int(layers_.size()) - 1;
+  }
+  /// Paints what is only named, on as many threads as there are cores.
+  Expected<void> generate() {
+    std::vector<std::future<Expected<DetailTexture>>> painted;
+    for (const Layer& layer : layers_)
+      if (!layer.texture)
+        painted.push_back(std::async(std::launch::async, [&layer] { return generate_detail(layer.name); }));
+    auto next = painted.begin();
+    Expected<void> done;
+    for (Layer& layer : layers_) {
+      if (layer.texture) continue;
+      Expected<DetailTexture> texture = (next++)->get();
+      if (texture)
+        layer.texture = std::make_shared<const DetailTexture>(std::move(*texture));
+      else
+        done = tl::unexpected(texture.error());
+    }
+    return done;
   }
   int count() const { return int(layers_.size()); }
   const DetailTexture& operator[](int i) const { return *layers_[size_t(i)].texture; }
@@ -50,18 +66,24 @@ class Layers {
   std::vector<Layer> layers_;
 };
 
-Expected<MaterialBlock> number_layers(std::span<const GroundMaterial> materials, Layers& layers) {
+MaterialLayers number_layers(const GroundMaterial& m, Layers& layers) {
+  MaterialLayers numbers;
+  numbers.flat = numbers.cliff = layers.add(m.texture, m.detail);
+  if (m.cliff_texture || !m.cliff_detail.empty()) numbers.cliff = layers.add(m.cliff_texture, m.cliff_detail);
+  const auto broad = [&](bool cliff, int own) {
+    const std::string name = broad_detail_of(m, cliff);
+    return name.empty() ? own : layers.add(nullptr, name);
+  };
+  numbers.flat_broad = broad(false, numbers.flat);
+  numbers.cliff_broad = broad(true, numbers.cliff);
+  return numbers;
+}
+
+MaterialBlock make_block(std::span<const GroundMaterial> materials, Layers& layers) {
   MaterialBlock block;
-  block.head = {float(materials.size()), anisotropic_filters() ? 0.0f : 1.0f, 0.0f, 0.0f};
-  for (size_t i = 0; i < materials.size(); ++i) {
-    const GroundMaterial& m = materials[i];
-    const Expected<int> on_flat = layers.add(m.texture, m.detail);
-    if (!on_flat) return tl::unexpected(on_flat.error());
-    Expected<int> on_cliff = on_flat;
-    if (m.cliff_texture || !m.cliff_detail.empty()) on_cliff = layers.add(m.cliff_texture, m.cliff_detail);
-    if (!on_cliff) return tl::unexpected(on_cliff.error());
-    block.material[i] = make_material_params(m, *on_flat, *on_cliff);
-  }
+  block.head = {float(materials.size()), anisotropic_filters() ? 1.0f : k_reads_without_anisotropy, 0.0f, 0.0f};
+  for (size_t i = 0; i < materials.size(); ++i)
+    block.material[i] = make_material_params(materials[i], number_layers(materials[i], layers));
   return block;
 }
 
@@ -90,14 +112,14 @@ void fill(GLuint array, const Layers& layers, GLenum format, GLenum type, All&& 
 Expected<void> GroundTextures::set_materials(std::span<const GroundMaterial> materials) {
   if (Expected<void> valid = validate(materials); !valid) return valid;
   Layers layers;
-  Expected<MaterialBlock> block = number_layers(materials, layers);
-  if (!block) return tl::unexpected(block.error());
+  const MaterialBlock block = make_block(materials, layers);
   GLint most = 0;
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
   if (layers.count() > most) {
     return fail("the ground's materials have " + std::to_string(layers.count()) +
                 " different textures; this device allows " + std::to_string(most));
   }
+  if (Expected<void> painted = layers.generate(); !painted) return painted;
   const DefaultUnpack unpack;
   // Without materials the arrays hold one texel: units must not be empty where a program could read.
   const bool none = layers.count() == 0;
@@ -107,7 +129,7 @@ Expected<void> GroundTextures::set_materials(std::span<const GroundMaterial> mat
   fill(detail_.id(), layers, GL_RGBA, GL_UNSIGNED_BYTE, [](const DetailTexture& t) { return std::span(t.shade); });
   fill(detail_slope_.id(), layers, GL_RG, GL_BYTE, [](const DetailTexture& t) { return std::span(t.slope); });
   materials_ = create_buffer();
-  glNamedBufferStorage(materials_.id(), sizeof(MaterialBlock), &*block, 0);
+  glNamedBufferStorage(materials_.id(), sizeof(MaterialBlock), &block, 0);
   return {};
 }
 

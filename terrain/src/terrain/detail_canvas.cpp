@@ -106,8 +106,8 @@ void draw_stone(Canvas& canvas, const Stone& stone) {
     for (const glm::vec3& cut : cuts) away = std::max(away, 1 + 6 * (p.x * cut.x + p.y * cut.y - cut.z));
     if (away >= 1) return;
     const float dome = std::sqrt(1 - away);
-    const float top = stone.rise * (std::min(dome, 1 - stone.flat) / (1 - 0.999f * stone.flat) +
-                                    0.4f * glm::dot(slant, p) * dome);
+    const float top =
+        stone.rise * (std::min(dome, 1 - stone.flat) / (1 - 0.999f * stone.flat) + 0.4f * glm::dot(slant, p) * dome);
     if (stone.base + top <= canvas.height[i]) return;
     canvas.height[i] = stone.base + top;
     canvas.color[i] = stone.color * (0.82f + 0.18f * dome);

@@ -28,9 +28,7 @@ struct Canvas {
   std::vector<float> height;
 
   explicit Canvas(glm::vec3 ground) : color(k_texels, ground), height(k_texels, 0.0f) {}
-  static size_t index(int x, int y) {
-    return size_t(y & (k_side - 1)) * size_t(k_side) + size_t(x & (k_side - 1));
-  }
+  static size_t index(int x, int y) { return size_t(y & (k_side - 1)) * size_t(k_side) + size_t(x & (k_side - 1)); }
 };
 
 /// Smooth noise that repeats after the tile, -1..1, of `cells` cells a side.
@@ -44,8 +42,8 @@ void roughen(Canvas& canvas, int cells, int count, float height, float contrast,
 struct Stone {
   glm::vec2 centre{0}, radius{1};
   float angle = 0, base = 0, rise = 1;
-  float dents = 0.1f;   ///< Depth of what its outline lacks to an ellipse, 0..0.4.
-  float flat = 0.5f;    ///< 0: a dome, 1: a slab.
+  float dents = 0.1f;  ///< Depth of what its outline lacks to an ellipse, 0..0.4.
+  float flat = 0.5f;   ///< 0: a dome, 1: a slab.
   glm::vec3 color{1};
   uint32_t number = 0;  ///< Its own shape.
 };

@@ -49,8 +49,8 @@ void scatter(Canvas& canvas, const Stones& stones, uint32_t seed) {
     stone.radius = radius * glm::vec2(1.0f, random.within(0.6f, 1.0f));
     stone.angle = random.within(0, k_turn);
     stone.rise = stones.rise * radius * random.within(0.7f, 1.2f);
-    stone.base = canvas.height[Canvas::index(int(stone.centre.x), int(stone.centre.y))] * 0.5f -
-                 stones.sunk * stone.rise;
+    stone.base =
+        canvas.height[Canvas::index(int(stone.centre.x), int(stone.centre.y))] * 0.5f - stones.sunk * stone.rise;
     stone.dents = stones.dents;
     stone.flat = stones.flat;
     stone.color = glm::mix(stones.color, stones.warm, random.unit()) * (1 + stones.spread * random.within(-1, 1));
@@ -87,14 +87,41 @@ void strew(Canvas& canvas, const Strands& strands, uint32_t seed) {
 DetailTexture paint_soil() {
   Canvas canvas(glm::vec3(0.20f, 0.135f, 0.085f));
   detail::roughen(canvas, 5, 6, 0.55f, 0.28f, 11);
-  scatter(canvas, {.count = 420, .largest = 19, .smallest = 4, .rise = 0.045f, .sunk = 0.35f, .dents = 0.35f,
-                   .flat = 0.15f, .spread = 0.18f, .color = glm::vec3(0.20f, 0.135f, 0.085f),
-                   .warm = glm::vec3(0.25f, 0.17f, 0.11f), .skew = 3.0f}, 12);
-  scatter(canvas, {.count = 2600, .largest = 5, .smallest = 1.5f, .rise = 0.06f, .sunk = 0.2f, .dents = 0.3f,
-                   .flat = 0.1f, .spread = 0.3f, .color = glm::vec3(0.19f, 0.13f, 0.08f),
-                   .warm = glm::vec3(0.29f, 0.22f, 0.16f)}, 13);
-  strew(canvas, {.count = 60, .length = 34, .width = 1.6f, .bend = 1.2f, .base = 0.5f, .lift = 0.5f,
-                 .fresh = glm::vec3(0.26f, 0.18f, 0.11f), .dry = glm::vec3(0.40f, 0.31f, 0.19f)}, 14);
+  scatter(canvas,
+          {.count = 420,
+           .largest = 19,
+           .smallest = 4,
+           .rise = 0.045f,
+           .sunk = 0.35f,
+           .dents = 0.35f,
+           .flat = 0.15f,
+           .spread = 0.18f,
+           .color = glm::vec3(0.20f, 0.135f, 0.085f),
+           .warm = glm::vec3(0.25f, 0.17f, 0.11f),
+           .skew = 3.0f},
+          12);
+  scatter(canvas,
+          {.count = 2600,
+           .largest = 5,
+           .smallest = 1.5f,
+           .rise = 0.06f,
+           .sunk = 0.2f,
+           .dents = 0.3f,
+           .flat = 0.1f,
+           .spread = 0.3f,
+           .color = glm::vec3(0.19f, 0.13f, 0.08f),
+           .warm = glm::vec3(0.29f, 0.22f, 0.16f)},
+          13);
+  strew(canvas,
+        {.count = 60,
+         .length = 34,
+         .width = 1.6f,
+         .bend = 1.2f,
+         .base = 0.5f,
+         .lift = 0.5f,
+         .fresh = glm::vec3(0.26f, 0.18f, 0.11f),
+         .dry = glm::vec3(0.40f, 0.31f, 0.19f)},
+        14);
   detail::shade_hollows(canvas, 0.45f);
   detail::roughen(canvas, 64, 2, 0.05f, 0.10f, 15);
   detail::calm(canvas, 0.6f);
@@ -106,12 +133,28 @@ DetailTexture paint_grass() {
   detail::roughen(canvas, 4, 6, 0.30f, 0.30f, 21);
   const std::vector<float> clumps = detail::octaves(6, 2, 22);
   // Old straw below, fresh blades above.
-  strew(canvas, {.count = 2600, .length = 56, .width = 1.7f, .bend = 1.4f, .base = -0.15f, .lift = 0.35f,
-                 .fresh = glm::vec3(0.20f, 0.21f, 0.075f), .dry = glm::vec3(0.34f, 0.28f, 0.13f),
-                 .dry_share = 0.75f}, 23);
-  strew(canvas, {.count = 3600, .length = 42, .width = 2.1f, .bend = 1.0f, .base = 0.05f, .lift = 0.55f,
-                 .fresh = glm::vec3(0.155f, 0.225f, 0.06f), .dry = glm::vec3(0.26f, 0.27f, 0.10f),
-                 .dry_share = 0.3f}, 24);
+  strew(canvas,
+        {.count = 2600,
+         .length = 56,
+         .width = 1.7f,
+         .bend = 1.4f,
+         .base = -0.15f,
+         .lift = 0.35f,
+         .fresh = glm::vec3(0.20f, 0.21f, 0.075f),
+         .dry = glm::vec3(0.34f, 0.28f, 0.13f),
+         .dry_share = 0.75f},
+        23);
+  strew(canvas,
+        {.count = 3600,
+         .length = 42,
+         .width = 2.1f,
+         .bend = 1.0f,
+         .base = 0.05f,
+         .lift = 0.55f,
+         .fresh = glm::vec3(0.155f, 0.225f, 0.06f),
+         .dry = glm::vec3(0.26f, 0.27f, 0.10f),
+         .dry_share = 0.3f},
+        24);
   for (size_t i = 0; i < clumps.size(); ++i) {
     canvas.height[i] += 0.25f * clumps[i];
     canvas.color[i] *= 1 + 0.16f * clumps[i];
@@ -125,10 +168,31 @@ DetailTexture paint_gravel() {
   Canvas canvas(glm::vec3(0.20f, 0.17f, 0.13f));
   detail::roughen(canvas, 8, 5, 0.20f, 0.30f, 31);
   const glm::vec3 cold(0.30f, 0.295f, 0.285f), warm(0.37f, 0.31f, 0.24f);
-  scatter(canvas, {.count = 5200, .largest = 8, .smallest = 2, .rise = 0.05f, .sunk = 0.1f, .dents = 0.28f,
-                   .flat = 0.25f, .spread = 0.4f, .color = cold, .warm = warm}, 32);
-  scatter(canvas, {.count = 900, .largest = 17, .smallest = 5, .rise = 0.055f, .sunk = 0.15f, .dents = 0.32f,
-                   .flat = 0.4f, .spread = 0.36f, .color = cold, .warm = warm, .skew = 2.4f}, 33);
+  scatter(canvas,
+          {.count = 5200,
+           .largest = 8,
+           .smallest = 2,
+           .rise = 0.05f,
+           .sunk = 0.1f,
+           .dents = 0.28f,
+           .flat = 0.25f,
+           .spread = 0.4f,
+           .color = cold,
+           .warm = warm},
+          32);
+  scatter(canvas,
+          {.count = 900,
+           .largest = 17,
+           .smallest = 5,
+           .rise = 0.055f,
+           .sunk = 0.15f,
+           .dents = 0.32f,
+           .flat = 0.4f,
+           .spread = 0.36f,
+           .color = cold,
+           .warm = warm,
+           .skew = 2.4f},
+          33);
   detail::shade_hollows(canvas, 0.35f);
   detail::roughen(canvas, 96, 2, 0.03f, 0.12f, 34);
   detail::calm(canvas, 0.5f);
@@ -139,12 +203,32 @@ DetailTexture paint_rock() {
   Canvas canvas(glm::vec3(0.30f, 0.29f, 0.275f));
   detail::roughen(canvas, 3, 6, 0.5f, 0.16f, 41);
   // Plates that have broken along planes, large below, then the rubble of their edges.
-  scatter(canvas, {.count = 130, .largest = 120, .smallest = 25, .rise = 0.004f, .sunk = 0.2f, .dents = 0.4f,
-                   .flat = 0.75f, .spread = 0.12f, .color = glm::vec3(0.30f, 0.29f, 0.275f),
-                   .warm = glm::vec3(0.33f, 0.315f, 0.29f), .skew = 1.5f}, 42);
-  scatter(canvas, {.count = 700, .largest = 22, .smallest = 3, .rise = 0.012f, .sunk = 0.3f, .dents = 0.4f,
-                   .flat = 0.5f, .spread = 0.15f, .color = glm::vec3(0.28f, 0.27f, 0.255f),
-                   .warm = glm::vec3(0.34f, 0.32f, 0.29f), .skew = 3.0f}, 43);
+  scatter(canvas,
+          {.count = 130,
+           .largest = 120,
+           .smallest = 25,
+           .rise = 0.004f,
+           .sunk = 0.2f,
+           .dents = 0.4f,
+           .flat = 0.75f,
+           .spread = 0.12f,
+           .color = glm::vec3(0.30f, 0.29f, 0.275f),
+           .warm = glm::vec3(0.33f, 0.315f, 0.29f),
+           .skew = 1.5f},
+          42);
+  scatter(canvas,
+          {.count = 700,
+           .largest = 22,
+           .smallest = 3,
+           .rise = 0.012f,
+           .sunk = 0.3f,
+           .dents = 0.4f,
+           .flat = 0.5f,
+           .spread = 0.15f,
+           .color = glm::vec3(0.28f, 0.27f, 0.255f),
+           .warm = glm::vec3(0.34f, 0.32f, 0.29f),
+           .skew = 3.0f},
+          43);
   const std::vector<float> lichen = detail::octaves(7, 4, 45);
   for (size_t i = 0; i < Canvas::k_texels; ++i) {
     const float grown = std::clamp((lichen[i] - 0.30f) * 7, 0.0f, 1.0f);
@@ -181,12 +265,13 @@ DetailTexture paint_strata() {
       const size_t i = Canvas::index(x, y);
       float place = 0.31f + float(y) / k_side + 0.030f * wave[i] + 0.006f * rough[i];
       place -= std::floor(place);
-      const auto bed = std::lower_bound(beds.begin(), beds.end(), place,
-                                        [](const Bed& each, float at) { return each.top < at; });
+      const auto bed =
+          std::lower_bound(beds.begin(), beds.end(), place, [](const Bed& each, float at) { return each.top < at; });
       const Bed& own = bed == beds.end() ? beds.front() : *bed;
       const float below = std::abs(own.top - place) * k_side;  // texels to the bed's edge
       const float edge = std::clamp(1 - below / 3, 0.0f, 1.0f);
-      const float open = std::max(0.0f, 1 - std::abs(joint[i] + 0.5f * own.out) * 16) * (0.4f + 0.6f * std::abs(own.out));
+      const float open =
+          std::max(0.0f, 1 - std::abs(joint[i] + 0.5f * own.out) * 16) * (0.4f + 0.6f * std::abs(own.out));
       canvas.height[i] = 0.35f * own.out + 0.25f * rough[i] + 0.22f * blocks[i] - 0.45f * edge - 0.35f * open;
       canvas.color[i] *= own.light * (1 + 0.20f * rough[i] + 0.10f * blocks[i]) * (1 - 0.35f * std::max(edge, open));
       canvas.color[i] *= glm::vec3(1 + 0.03f * own.out, 1.0f, 1 - 0.04f * own.out);
@@ -209,9 +294,18 @@ DetailTexture paint_sand() {
       canvas.color[i] *= 0.93f + 0.12f * ripple;
     }
   }
-  scatter(canvas, {.count = 140, .largest = 5, .smallest = 1.5f, .rise = 0.05f, .sunk = 0.1f, .dents = 0.2f,
-                   .flat = 0.2f, .spread = 0.4f, .color = glm::vec3(0.42f, 0.36f, 0.29f),
-                   .warm = glm::vec3(0.56f, 0.50f, 0.41f)}, 62);
+  scatter(canvas,
+          {.count = 140,
+           .largest = 5,
+           .smallest = 1.5f,
+           .rise = 0.05f,
+           .sunk = 0.1f,
+           .dents = 0.2f,
+           .flat = 0.2f,
+           .spread = 0.4f,
+           .color = glm::vec3(0.42f, 0.36f, 0.29f),
+           .warm = glm::vec3(0.56f, 0.50f, 0.41f)},
+          62);
   detail::roughen(canvas, 96, 3, 0.07f, 0.16f, 63);
   detail::shade_hollows(canvas, 0.78f);
   return detail::finish(std::move(canvas));
@@ -233,8 +327,16 @@ DetailTexture paint_litter() {
     leaf.color = glm::mix(brown, tan, random.unit()) * random.within(0.6f, 1.25f);
     detail::draw_leaf(canvas, leaf);
   }
-  strew(canvas, {.count = 70, .length = 90, .width = 3.2f, .bend = 0.6f, .base = 0.4f, .lift = 0.5f,
-                 .fresh = glm::vec3(0.17f, 0.125f, 0.085f), .dry = glm::vec3(0.27f, 0.21f, 0.15f)}, 73);
+  strew(canvas,
+        {.count = 70,
+         .length = 90,
+         .width = 3.2f,
+         .bend = 0.6f,
+         .base = 0.4f,
+         .lift = 0.5f,
+         .fresh = glm::vec3(0.17f, 0.125f, 0.085f),
+         .dry = glm::vec3(0.27f, 0.21f, 0.15f)},
+        73);
   detail::shade_hollows(canvas, 0.4f);
   detail::roughen(canvas, 64, 3, 0.03f, 0.12f, 74);
   detail::calm(canvas, 0.6f);
@@ -253,13 +355,40 @@ DetailTexture paint_snow() {
   return detail::finish(std::move(canvas));
 }
 
+DetailTexture paint_mottle() {
+  Canvas canvas(glm::vec3(0.2f));
+  const std::vector<float> broad = detail::octaves(4, 6, 91), tint = detail::octaves(5, 4, 92);
+  for (size_t i = 0; i < Canvas::k_texels; ++i) {
+    canvas.height[i] = 0.4f * broad[i];
+    canvas.color[i] *= glm::vec3(1 + 0.09f * tint[i], 1.0f, 1 - 0.06f * tint[i]) * (1 + 0.22f * broad[i]);
+  }
+  // Tussocks and hollows of all sizes.
+  scatter(canvas,
+          {.count = 420,
+           .largest = 34,
+           .smallest = 5,
+           .rise = 0.016f,
+           .sunk = 0.3f,
+           .dents = 0.12f,
+           .flat = 0.05f,
+           .spread = 0.14f,
+           .color = glm::vec3(0.195f, 0.205f, 0.18f),
+           .warm = glm::vec3(0.23f, 0.21f, 0.195f),
+           .skew = 2.2f},
+          93);
+  detail::roughen(canvas, 12, 6, 0.20f, 0.42f, 94);
+  detail::shade_hollows(canvas, 0.7f);
+  return detail::finish(std::move(canvas));
+}
+
 struct Painter {
   std::string_view name;
   DetailTexture (*paint)();
 };
 constexpr Painter k_painters[] = {
-    {"soil", paint_soil},     {"grass", paint_grass}, {"gravel", paint_gravel}, {"rock", paint_rock},
-    {"strata", paint_strata}, {"sand", paint_sand},   {"litter", paint_litter}, {"snow", paint_snow},
+    {"soil", paint_soil},     {"grass", paint_grass},   {"gravel", paint_gravel},
+    {"rock", paint_rock},     {"strata", paint_strata}, {"sand", paint_sand},
+    {"litter", paint_litter}, {"snow", paint_snow},     {"mottle", paint_mottle},
 };
 
 }  // namespace

@@ -172,7 +172,8 @@ std::vector<glm::vec3> resample(int side, std::span<const glm::u8vec4> texels) {
     for (int x = 0; x < k_side; ++x)
       for (const Tap& tap : axis[size_t(x)]) {
         const glm::u8vec4 texel = texels[size_t(y) * size_t(side) + size_t(tap.texel)];
-        rows[size_t(y) * k_side + size_t(x)] += tap.share * glm::vec3(linear[texel.r], linear[texel.g], linear[texel.b]);
+        rows[size_t(y) * k_side + size_t(x)] +=
+            tap.share * glm::vec3(linear[texel.r], linear[texel.g], linear[texel.b]);
       }
   for (int y = 0; y < k_side; ++y)
     for (const Tap& tap : axis[size_t(y)])

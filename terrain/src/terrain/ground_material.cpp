@@ -71,6 +71,8 @@ Expected<void> check(const GroundMaterial& m) {
     if (auto fits = check_range(who, r.field, r.value, r.low, r.high); !fits) return fits;
   if (!m.texture)
     if (auto known = check_detail(who, m.detail); !known) return known;
+  if (!m.broad_detail.empty())
+    if (auto known = check_detail(who, m.broad_detail); !known) return known;
   if (!m.cliff_texture && !m.cliff_detail.empty()) return check_detail(who, m.cliff_detail);
   return {};
 }
@@ -86,7 +88,7 @@ GroundMaterial material(const char* name, glm::vec3 hsv, glm::vec3 weights, floa
 
 }  // namespace
 
-material_glsl::MaterialParams make_material_params(const GroundMaterial& m, int layer, int cliff_layer) {
+material_glsl::MaterialParams make_material_params(const GroundMaterial& m, const MaterialLayers& layers) {
   const float tiles = tiles_of(m.tile_m), cliff_tiles = tiles_of(m.cliff_tile_m);
   // As species have it: a hair less, so that rounding cannot refuse the limit itself.
   const float least = float(0.99999 * std::pow(double(m.max_distance), -double(m.exponent)));
@@ -94,10 +96,20 @@ material_glsl::MaterialParams make_material_params(const GroundMaterial& m, int 
   p.reference = glm::vec4(m.reference_hsv.value_or(glm::vec3(0)), m.exponent);
   p.weights = glm::vec4(m.weights, least);
   p.look = {tiles, cliff_tiles, m.strength, m.sharpness};
-  p.layers = {float(layer), float(cliff_layer), m.reference_hsv ? 0.0f : least, 0.0f};
+  p.layers = {float(layers.flat), float(layers.cliff), m.reference_hsv ? 0.0f : least, 0.0f};
   p.relief = {m.strength * slope_of_code(m.relief_m, tiles), m.strength * slope_of_code(m.cliff_relief_m, cliff_tiles),
-              0.0f, 0.0f};
+              float(layers.flat_broad), float(layers.cliff_broad)};
   return p;
+}
+
+std::string broad_detail_of(const GroundMaterial& m, bool cliff) {
+  if (!m.broad_detail.empty()) return m.broad_detail;
+  const bool own_cliff = cliff && (m.cliff_texture || !m.cliff_detail.empty());
+  if (own_cliff ? bool(m.cliff_texture) : bool(m.texture)) return "mottle";
+  const std::string& name = own_cliff ? m.cliff_detail : m.detail;
+  for (const char* sized : {"grass", "gravel", "litter"})
+    if (name == sized) return "mottle";
+  return {};
 }
 
 Expected<void> validate(std::span<const GroundMaterial> materials) {
@@ -123,7 +135,7 @@ void material_shares(std::span<const GroundMaterial> materials, glm::vec3 srgb, 
   const glm::vec3 hsv = material_glsl::rgb_to_hsv(srgb);
   material_glsl::BestMaterials best = material_glsl::no_materials();
   for (size_t i = 0; i < materials.size(); ++i) {
-    const auto params = make_material_params(materials[i], 0, 0);
+    const auto params = make_material_params(materials[i], {});
     best = material_glsl::insert_material(best, int(i), material_glsl::material_score(params, hsv));
     shares[i] = 0;
   }

@@ -11,7 +11,12 @@ namespace sward {
 /// Period of places on the ground that shaders see, metres.
 inline constexpr double k_ground_period_m = 1024;
 
-/// A material as shaders see it; layers of the detail are the caller's to number.
-material_glsl::MaterialParams make_material_params(const GroundMaterial& material, int layer, int cliff_layer);
+/// Layers of the array texture, on flat ground and on cliffs, at the finest and the coarser scales.
+struct MaterialLayers {
+  int flat = 0, cliff = 0, flat_broad = 0, cliff_broad = 0;
+};
+
+/// A material as shaders see it.
+material_glsl::MaterialParams make_material_params(const GroundMaterial& material, const MaterialLayers& layers);
 
 }  // namespace sward

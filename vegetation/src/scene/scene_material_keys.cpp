@@ -75,6 +75,12 @@ Key<SceneMaterial> detail_key(std::string name, std::string GroundMaterial::*gen
           {}};
 }
 
+Key<SceneMaterial> broad_key() {
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const std::string_view each : generated_details()) names.emplace_back(each, each);
+  return of_material(choice<GroundMaterial, std::string>("broad_detail", &GroundMaterial::broad_detail, names));
+}
+
 /// Fails at a key that would have no effect beside another.
 Expected<void> refuse_beside(const toml::table& table, std::initializer_list<const char*> keys,
                              const std::string& because, const Context& context) {
@@ -107,7 +113,7 @@ const Schema<SceneMaterial>& material_schema() {
        hsv_key(), of_material(weights_key()), of_material(number("exponent", &G::exponent, above_to(0, 8))),
        of_material(number("threshold", &G::max_distance, within(1e-4, 1e6), "weighted colour distance")),
        detail_key("detail", &G::detail, &S::detail_file), detail_key("cliff_detail", &G::cliff_detail, &S::cliff_file),
-       of_material(number("tile_m", &G::tile_m, within(0.05, 64), "metres")),
+       broad_key(), of_material(number("tile_m", &G::tile_m, within(0.05, 64), "metres")),
        of_material(number("cliff_tile_m", &G::cliff_tile_m, within(0.05, 64), "metres")),
        of_material(number("strength", &G::strength, within(0, 1))),
        of_material(number("relief_m", &G::relief_m, within(0, 2), "metres")),
@@ -119,20 +125,21 @@ const Schema<SceneMaterial>& material_schema() {
 
 Key<Scene> materials_key() {
   const std::string expected = "a list of tables, each headed " + material_schema().title;
-  return {"material", expected, {}, [=](const toml::node& node, Scene& scene, const Context& context) -> Expected<void> {
-            const toml::array* array = node.as_array();
-            if (array == nullptr) return context.fail_at(node, "material is no list: expected " + expected);
-            for (const toml::node& element : *array) {
-              if (!element.is_table()) return context.fail_at(element, quoted(element) + ": expected " + expected);
-              SceneMaterial& added = scene.materials.emplace_back();
-              added.where = context.file + ":" + std::to_string(element.source().begin.line);
-              const auto read = read_fields(*element.as_table(), material_schema(), added, context);
-              if (!read) return read;
-              GroundMaterial& material = added.material;
-              if (material.name.empty()) material.name = material.detail;
-            }
-            return {};
-          }};
+  return {
+      "material", expected, {}, [=](const toml::node& node, Scene& scene, const Context& context) -> Expected<void> {
+        const toml::array* array = node.as_array();
+        if (array == nullptr) return context.fail_at(node, "material is no list: expected " + expected);
+        for (const toml::node& element : *array) {
+          if (!element.is_table()) return context.fail_at(element, quoted(element) + ": expected " + expected);
+          SceneMaterial& added = scene.materials.emplace_back();
+          added.where = context.file + ":" + std::to_string(element.source().begin.line);
+          const auto read = read_fields(*element.as_table(), material_schema(), added, context);
+          if (!read) return read;
+          GroundMaterial& material = added.material;
+          if (material.name.empty()) material.name = material.detail;
+        }
+        return {};
+      }};
 }
 
 Expected<void> take_species_colors(const toml::table& table, Scene& scene, const Context& context) {

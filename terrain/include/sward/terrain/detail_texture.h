@@ -16,10 +16,10 @@ namespace sward {
 /// a factor around 1, so that the ground keeps the base map's colour: the mean of every channel at every level is 1.
 /// Immutable after filling; safe from several threads.
 struct DetailTexture {
-  static constexpr int k_side = 512;             ///< Texels a side of level 0.
-  static constexpr int k_levels = 10;            ///< Down to one texel.
-  static constexpr float k_unit = 128.0f;        ///< The code that stands for the factor 1; 255 is 1.99.
-  static constexpr float k_steepest = 48.0f;     ///< Slope that the code 127 stands for: heights (0..1) a tile.
+  static constexpr int k_side = 512;          ///< Texels a side of level 0.
+  static constexpr int k_levels = 10;         ///< Down to one texel.
+  static constexpr float k_unit = 128.0f;     ///< The code that stands for the factor 1; 255 is 1.99.
+  static constexpr float k_steepest = 48.0f;  ///< Slope that the code 127 stands for: heights (0..1) a tile.
 
   /// Red, green, blue: factors on linear colour; alpha: height, 0 lowest .. 255 highest. Levels one after the other,
   /// the largest first, rows from the north.
@@ -38,7 +38,8 @@ struct DetailTexture {
   glm::vec3 mean(int level) const;
 };
 
-/// Names that generate_detail() knows: "soil", "grass", "gravel", "rock", "strata", "sand", "litter", "snow".
+/// Names that generate_detail() knows: "soil", "grass", "gravel", "rock", "strata", "sand", "litter", "snow",
+/// "mottle" (clumps and hollows without anything that has a size of its own).
 std::span<const std::string_view> generated_details();
 
 /// Paints one of them; the same bytes on every call and machine of the same floating point. Fails on another name,
@@ -46,8 +47,8 @@ std::span<const std::string_view> generated_details();
 Expected<DetailTexture> generate_detail(std::string_view name);
 
 /// From an image of any square size from 16 to 8192 texels a side (sRGB; alpha is ignored), resampled by areas. Colours
-/// are divided by their mean, and brightness is taken for height. Its borders should match: it is repeated. `name` begins
-/// messages. Fails where the sides differ, are out of range, or the image is black.
+/// are divided by their mean, and brightness is taken for height. Its borders should match: it is repeated. `name`
+/// begins messages. Fails where the sides differ, are out of range, or the image is black.
 Expected<DetailTexture> detail_from_image(std::string_view name, int width, int height,
                                           std::span<const glm::u8vec4> texels);
 

@@ -27,6 +27,9 @@ struct GroundMaterial {
 
   std::string detail = "soil";  ///< A name of generated_details(); read where `texture` is null.
   std::string cliff_detail;     ///< The same on steep faces; empty: what lies on flat ground.
+  /// What shows at the middle and the broad scale, where a blade or a stone would look like a giant's: a name of
+  /// generated_details(); empty: the detail itself for soil, rock, strata, sand and snow, else "mottle".
+  std::string broad_detail;
   std::shared_ptr<const DetailTexture> texture, cliff_texture;
   float tile_m = 1.0f;        ///< Side of the detail texture on the ground, metres, 0.05..64.
   float cliff_tile_m = 6.0f;  ///< The same on steep faces.
@@ -45,6 +48,10 @@ Expected<void> validate(std::span<const GroundMaterial> materials);
 /// Grass, litter, soil, gravel, rock with strata on cliffs, sand and snow by colours that they have anywhere, and soil
 /// for the rest.
 std::vector<GroundMaterial> default_ground_materials();
+
+/// What a material shows at the coarser scales, on flat ground and on cliffs: broad_detail, or what it stands for.
+/// Empty: the same as at the finest.
+std::string broad_detail_of(const GroundMaterial& material, bool cliff);
 
 /// Equation 17: the share of each material in ground of this colour (sRGB-encoded, 0..1), before heights sharpen it.
 /// Shares are those of the three best scores, each less the fourth, so that what is drawn is bounded and nothing jumps;
