@@ -5,7 +5,7 @@
 // the base map's colour, at three scales, on the two planes that steep ground turns to most. GLSL only.
 //
 // Texture reads a fragment, for each of the materials that share it (1, at a border 2, never above 3): near the eye 2
-// for the finest scale (factor, slope) and 1 for the middle one; from where a pixel is a twelfth of the finest tile 2,
+// for the finest scale (factor, slope) and 1 for the middle one; from where a pixel is an eighth of the finest tile 2,
 // then 1, then none. Where two pieces of the texture meet twice as many (about a third of the ground), on faces between
 // flat and steep twice again. So 3 to 6 near on most ground, 36 at the very worst.
 #include "common_frame.glsl"
@@ -164,11 +164,11 @@ SplatTap plane_tap(MaterialParams m, SplatPlace place, int axis) {
                              : vec3(ground_noise(q, 0.125, 21u).x, ground_noise(q, 0.03125, 22u).x, 0.0);
   if (!flat_plane) variants.z = variants.y;
 
-  // Shares of the scales: the finest until a pixel is a twelfth of its tile, the broad one from there on.
+  // Shares of the scales: the finest until a pixel is an eighth of its tile, the broad one from there on.
   float pixel = place.footprint * tiles / 1024.0;
-  float fine = 1.0 - smoothstep(0.02, 0.08, pixel);
-  float middle = 1.0 - smoothstep(0.02, 0.08, pixel / k_middle_step);
-  float broad = (1.0 - smoothstep(0.02, 0.08, pixel / k_broad_step)) * (1.0 - fine);
+  float fine = 1.0 - smoothstep(0.03, 0.13, pixel);
+  float middle = 1.0 - smoothstep(0.03, 0.13, pixel / k_middle_step);
+  float broad = (1.0 - smoothstep(0.03, 0.13, pixel / k_broad_step)) * (1.0 - fine);
 
   SplatTap sum;
   sum.shade = vec3(1.0);

@@ -151,4 +151,22 @@ void draw_leaf(Canvas& canvas, const FlatLeaf& leaf) {
   });
 }
 
+void wear(Canvas& canvas, int texels) {
+  const float share = 1.0f / float(2 * texels + 1);
+  std::vector<float> along(Canvas::k_texels);
+  // A box along x, then along y: running sums.
+  for (const bool down : {false, true}) {
+    const auto at = [down](int i, int k) { return down ? Canvas::index(i, k) : Canvas::index(k, i); };
+    for (int i = 0; i < k_side; ++i) {
+      float sum = 0;
+      for (int k = -texels; k <= texels; ++k) sum += canvas.height[at(i, k)];
+      for (int k = 0; k < k_side; ++k) {
+        along[at(i, k)] = sum * share;
+        sum += canvas.height[at(i, k + texels + 1)] - canvas.height[at(i, k - texels)];
+      }
+    }
+    canvas.height.swap(along);
+  }
+}
+
 }  // namespace sward::detail

@@ -68,6 +68,9 @@ void draw_leaf(Canvas& canvas, const FlatLeaf& leaf);
 /// Darkens what lies deep: colour times mix(depth, 1, height), heights first brought to 0..1.
 void shade_hollows(Canvas& canvas, float depth);
 
+/// Rounds steps of the height off, over so many texels.
+void wear(Canvas& canvas, int texels);
+
 /// Takes hues towards the mean's: 1 leaves them, 0 leaves brightness alone.
 void calm(Canvas& canvas, float chroma);
 

@@ -200,42 +200,23 @@ DetailTexture paint_gravel() {
 }
 
 DetailTexture paint_rock() {
-  Canvas canvas(glm::vec3(0.30f, 0.29f, 0.275f));
-  detail::roughen(canvas, 3, 6, 0.5f, 0.16f, 41);
-  // Plates that have broken along planes, large below, then the rubble of their edges.
-  scatter(canvas,
-          {.count = 130,
-           .largest = 120,
-           .smallest = 25,
-           .rise = 0.004f,
-           .sunk = 0.2f,
-           .dents = 0.4f,
-           .flat = 0.75f,
-           .spread = 0.12f,
-           .color = glm::vec3(0.30f, 0.29f, 0.275f),
-           .warm = glm::vec3(0.33f, 0.315f, 0.29f),
-           .skew = 1.5f},
-          42);
-  scatter(canvas,
-          {.count = 700,
-           .largest = 22,
-           .smallest = 3,
-           .rise = 0.012f,
-           .sunk = 0.3f,
-           .dents = 0.4f,
-           .flat = 0.5f,
-           .spread = 0.15f,
-           .color = glm::vec3(0.28f, 0.27f, 0.255f),
-           .warm = glm::vec3(0.34f, 0.32f, 0.29f),
-           .skew = 3.0f},
-          43);
+  const glm::vec3 grey(0.30f, 0.29f, 0.275f), pale(0.33f, 0.315f, 0.29f);
+  Canvas canvas(grey);
+  detail::roughen(canvas, 3, 6, 0.7f, 0.16f, 41);
+  // Plates that have broken along planes, worn, then the rubble of their edges.
+  scatter(canvas, {.count = 130, .largest = 120, .smallest = 25, .rise = 0.003f, .sunk = 0.35f, .dents = 0.4f,
+                   .flat = 0.35f, .spread = 0.10f, .color = grey, .warm = pale, .skew = 1.5f}, 42);
+  detail::wear(canvas, 5);
+  scatter(canvas, {.count = 600, .largest = 18, .smallest = 3, .rise = 0.010f, .sunk = 0.4f, .dents = 0.4f,
+                   .flat = 0.3f, .spread = 0.13f, .color = grey, .warm = pale, .skew = 3.0f}, 43);
   const std::vector<float> lichen = detail::octaves(7, 4, 45);
   for (size_t i = 0; i < Canvas::k_texels; ++i) {
     const float grown = std::clamp((lichen[i] - 0.30f) * 7, 0.0f, 1.0f);
     canvas.color[i] = glm::mix(canvas.color[i], glm::vec3(0.38f, 0.375f, 0.31f), 0.4f * grown);
   }
-  detail::roughen(canvas, 24, 5, 0.14f, 0.26f, 46);
-  detail::shade_hollows(canvas, 0.6f);
+  detail::wear(canvas, 1);
+  detail::roughen(canvas, 20, 5, 0.22f, 0.26f, 46);
+  detail::shade_hollows(canvas, 0.55f);
   return detail::finish(std::move(canvas));
 }
 

@@ -153,7 +153,7 @@ std::vector<GroundMaterial> default_ground_materials() {
   all.push_back(material("gravel", {0.095f, 0.24f, 0.50f}, {2.0f, 1.2f, 0.6f}, 0.3f));
   all.push_back(material("rock", {0.1f, 0.07f, 0.45f}, {0.0f, 1.2f, 0.4f}, 0.4f));
   all.back().tile_m = 3.0f;
-  all.back().relief_m = 0.22f;
+  all.back().relief_m = 0.15f;
   all.back().cliff_detail = "strata";
   all.push_back(material("sand", {0.12f, 0.32f, 0.78f}, {3.0f, 1.0f, 1.0f}, 0.25f));
   all.push_back(material("snow", {0.6f, 0.03f, 0.94f}, {0.0f, 1.0f, 1.0f}, 0.3f));
