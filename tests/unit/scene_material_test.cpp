@@ -63,10 +63,10 @@ detail = "sand.png"
   EXPECT_EQ(wall.sharpness, 2);
   EXPECT_FALSE(scene->materials[2].material.reference_hsv);
   EXPECT_EQ(scene->materials[2].detail_file, "sand.png");
-  EXPECT_EQ(scene->materials[2].where, "s.toml:20");
+  EXPECT_EQ(scene->materials[2].where, "s.toml:22");
   const auto unloaded = ground_materials(*scene);
   ASSERT_FALSE(unloaded);
-  EXPECT_NE(unloaded.error().message.find("s.toml:20: the images of material"), std::string::npos);
+  EXPECT_NE(unloaded.error().message.find("s.toml:22: the images of material"), std::string::npos);
 }
 
 TEST(SceneMaterials, AListWithoutOneThatIsEverywhereGetsSoil) {
