@@ -222,6 +222,7 @@ TEST_F(Splat, NothingAliasesAtAnyDistance) {
       if (deviation < 0.005) continue;  // nothing is left that could flicker
       EXPECT_LT(std::sqrt(difference), 0.62 * deviation) << detail << " at " << distance;
     }
+    EXPECT_GT(statistics(face(0, 0, 1.5)).deviation, 0.15) << "near the eye there is something to see";
     const Answer far = face(0, 0, 4000);
     EXPECT_LT(statistics(far).deviation, 0.01) << "far away the ground is the base map";
   }
