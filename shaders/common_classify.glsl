@@ -46,19 +46,24 @@ SWARD_FN vec3 rgb_to_hsv(vec3 c) {
   return vec3(hue, saturation, value);
 }
 
-// Equation 16 for a reference colour. Hue differences wrap; a nearly grey ground has no hue. 0: beyond the species'
-// threshold.
-SWARD_FN float score_against(SpeciesParams species, vec3 reference, vec3 hsv) {
+// Equation 16: `reference` is hue (turns), saturation, value and the exponent p, `weights` those of hue, saturation and
+// value, and the least score that counts: 0 below it. Hue differences wrap; a nearly grey ground has no hue.
+SWARD_FN float color_score(vec4 reference, vec4 weights, vec3 hsv) {
   SWARD_PRECISE float dh = reference.x - hsv.x;
   dh = dh - floor(dh + 0.5f);
   if (hsv.y < 0.02f) dh = 0.0f;
-  SWARD_PRECISE float x = dh * species.weights.x;
-  SWARD_PRECISE float y = (reference.y - hsv.y) * species.weights.y;
-  SWARD_PRECISE float z = (reference.z - hsv.z) * species.weights.z;
+  SWARD_PRECISE float x = dh * weights.x;
+  SWARD_PRECISE float y = (reference.y - hsv.y) * weights.y;
+  SWARD_PRECISE float z = (reference.z - hsv.z) * weights.z;
   SWARD_PRECISE float distance_squared = x * x + y * y + z * z;
   SWARD_PRECISE float distance = max(sqrt(distance_squared), 1.0e-4f);
-  SWARD_PRECISE float score = pow(distance, -species.reference.w);
-  return score >= species.weights.w ? score : 0.0f;
+  SWARD_PRECISE float score = pow(distance, -reference.w);
+  return score >= weights.w ? score : 0.0f;
+}
+
+// A species' score by a reference colour of its own or its season's.
+SWARD_FN float score_against(SpeciesParams species, vec3 reference, vec3 hsv) {
+  return color_score(vec4(reference.x, reference.y, reference.z, species.reference.w), species.weights, hsv);
 }
 
 SWARD_FN float species_score(SpeciesParams species, vec3 hsv) {

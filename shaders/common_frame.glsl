@@ -15,6 +15,6 @@ layout(std140, binding = SWARD_BINDING_FRAME) uniform SwardFrame {
   vec4 horizon_radiance;   // w: 1 / haze distance
   vec4 ground_radiance;    // w: 1 / haze height
   vec4 eye_noise;          // eye's x, y modulo 1024 m; eye's height; samples of the target
-  vec4 up;
+  vec4 up;                 // w: eye's height modulo 1024 m
   vec4 ground_tint;        // factor on green ground
 } frame;

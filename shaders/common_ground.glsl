@@ -3,15 +3,21 @@
 
 // The ground's colour from the base map, with the structure that lies below its texels: patches, clods, grains.
 // Everything is a function of the place alone; each octave fades before it would alias, and its mean is nothing, so
-// that the near ground has the colour of the far.
+// that the near ground has the colour of the far. Where the ground has materials, their detail textures take the place
+// of the finer octaves.
 #include "common_frame.glsl"
 #include "common_noise.glsl"
+#include "common_splat.glsl"
 
 struct GroundDetail {
   float shade;   // factor on brightness, around 1
   float litter;  // 1: towards bare earth and dry litter .. -1: away from it
   vec2 warp;     // of the base map lookup, texels
   vec2 slope;    // dz/dx, dz/dy of clods and grains
+  vec3 point;    // relative to the eye
+  vec3 normal;
+  float footprint;
+  vec3 variants;  // noise of 2, 8, 32 m
 };
 
 // Metres of ground that a pixel covers: between its width and its length along the view.
@@ -24,14 +30,20 @@ float ground_footprint(vec3 relative_position, vec3 normal) {
 // Weight of an octave: full while a cell spans four pixels, nothing below two.
 float octave_weight(float cells, float footprint) { return 1.0 - smoothstep(0.25, 0.55, footprint * cells); }
 
-GroundDetail ground_detail(vec3 relative_position, vec3 normal) {
+// Octaves of half a metre and finer are left out where `coarse` says so.
+GroundDetail octaves_of_ground(vec3 relative_position, vec3 normal, bool coarse) {
   vec2 p = frame.eye_noise.xy + relative_position.xy;
-  float footprint = ground_footprint(relative_position, normal);
   GroundDetail detail;
-  float broad_weight = octave_weight(0.03125, footprint);
-  float patch_weight = octave_weight(0.125, footprint);
-  float broad = broad_weight > 0.0 ? broad_weight * ground_noise(p, 0.03125, 1u).x : 0.0;
-  float patches = patch_weight > 0.0 ? patch_weight * ground_noise(p, 0.125, 2u).x : 0.0;
+  detail.point = relative_position;
+  detail.normal = normal;
+  detail.footprint = ground_footprint(relative_position, normal);
+  float broad_weight = octave_weight(0.03125, detail.footprint);
+  float patch_weight = octave_weight(0.125, detail.footprint);
+  float broad = broad_weight > 0.0 ? ground_noise(p, 0.03125, 1u).x : 0.0;
+  float patches = patch_weight > 0.0 ? ground_noise(p, 0.125, 2u).x : 0.0;
+  detail.variants = vec3(0.0, patches, broad);
+  broad *= broad_weight;
+  patches *= patch_weight;
   detail.shade = 1.0 + 0.15 * broad + 0.22 * patches;
   detail.litter = 0.6 * broad + 0.9 * patches;
   detail.warp = vec2(0.0);
@@ -40,11 +52,14 @@ GroundDetail ground_detail(vec3 relative_position, vec3 normal) {
   // Octaves from half a metre to two centimetres: amplitudes of brightness, of height (m).
   float cells = 0.5;
   float height = 0.08;
-  float grain = 0.36;
-  for (uint i = 0u; i < 6u; ++i) {
-    float weight = octave_weight(cells, footprint);
+  float grain = coarse ? 0.18 : 0.36;
+  uint last = coarse ? 2u : 6u;
+  for (uint i = 0u; i < last; ++i) {
+    float weight = octave_weight(cells, detail.footprint);
     if (weight > 0.0) {
-      vec3 noise = ground_noise(p, cells, 3u + i) * weight;
+      vec3 noise = ground_noise(p, cells, 3u + i);
+      if (i == 0u) detail.variants.x = noise.x;
+      noise *= weight;
       detail.shade += grain * noise.x;
       detail.litter += (i < 3u ? 0.9 : 0.35) * noise.x;
       detail.slope += height * noise.yz;
@@ -59,9 +74,28 @@ GroundDetail ground_detail(vec3 relative_position, vec3 normal) {
   return detail;
 }
 
-// Linear colour of the ground. Bright, colourless ground (snow) and blue ground (water) keep the base map's colour.
-vec3 ground_albedo(sampler2D base_map, vec2 uv, GroundDetail detail) {
-  vec3 base = texture(base_map, uv + detail.warp / vec2(textureSize(base_map, 0))).rgb;
+GroundDetail ground_detail(vec3 relative_position, vec3 normal) {
+  return octaves_of_ground(relative_position, normal, has_materials());
+}
+
+vec3 ground_encoded(vec3 linear) {
+  vec3 high = 1.055 * pow(max(linear, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055;
+  return mix(linear * 12.92, high, greaterThan(linear, vec3(0.0031308)));
+}
+
+// Factor of the materials' detail textures on ground of this colour; their relief joins detail.slope.
+vec3 material_shade(vec3 base, inout GroundDetail detail) {
+  SplatPlace place = splat_place(detail.point, detail.normal, detail.footprint, detail.variants);
+  Splat splat = splat_materials(materials_at(ground_encoded(base)), place);
+  vec3 n = detail.normal;
+  vec3 rough = n - splat.gradient + n * dot(n, splat.gradient);
+  rough.z = max(rough.z, 0.15 * n.z);
+  detail.slope += n.xy / n.z - rough.xy / rough.z;
+  return splat.shade;
+}
+
+// The base map's colour at a place, with the octaves' share. Bright, colourless ground (snow) and blue ground (water) keep the base map's colour.
+vec3 octaves_albedo(vec3 base, GroundDetail detail) {
   float brightest = max(base.r, max(base.g, base.b));
   float darkest = min(base.r, min(base.g, base.b));
   float snow = smoothstep(0.30, 0.60, darkest);
@@ -76,7 +110,19 @@ vec3 ground_albedo(sampler2D base_map, vec2 uv, GroundDetail detail) {
   return color * mix(1.0, detail.shade, 0.25 + 0.75 * earthy);
 }
 
-// The same for programs that need no more than the colour.
+vec3 base_color(sampler2D base_map, vec2 uv, GroundDetail detail) {
+  return texture(base_map, uv + detail.warp / vec2(textureSize(base_map, 0))).rgb;
+}
+
+// Linear colour of the ground. `detail` comes from ground_detail; its slope takes on the materials' relief.
+vec3 ground_albedo(sampler2D base_map, vec2 uv, inout GroundDetail detail) {
+  vec3 base = base_color(base_map, uv, detail);
+  vec3 color = octaves_albedo(base, detail);
+  return has_materials() ? color * material_shade(base, detail) : color;
+}
+
+// For plants, which take on the ground's colour but not its texture.
 vec3 ground_albedo(sampler2D base_map, vec2 uv, vec3 relative_position, vec3 normal) {
-  return ground_albedo(base_map, uv, ground_detail(relative_position, normal));
+  GroundDetail detail = octaves_of_ground(relative_position, normal, false);
+  return octaves_albedo(base_color(base_map, uv, detail), detail);
 }

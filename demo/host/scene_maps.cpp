@@ -102,9 +102,39 @@ Expected<void> fill_plant_mesh(const Scene& scene, Species& species) {
   return {};
 }
 
+using Details = std::map<std::string, std::shared_ptr<const DetailTexture>>;
+
+Expected<void> fill_detail(const std::string& file, const std::string& where, const Scene& scene, Details& known,
+                           std::shared_ptr<const DetailTexture>& texture) {
+  if (file.empty()) return {};
+  std::shared_ptr<const DetailTexture>& kept = known[file];
+  if (!kept) {
+    const std::string path = scene.resolve(file);
+    auto image = load_map(path);
+    if (!image) return fail(where + ": " + image.error().message);
+    auto detail = detail_from_image(path, image->width, image->height, image->texels);
+    if (!detail) return fail(where + ": " + detail.error().message);
+    kept = std::make_shared<const DetailTexture>(std::move(*detail));
+  }
+  texture = kept;
+  return {};
+}
+
+Expected<void> load_details(Scene& scene) {
+  Details known;
+  for (SceneMaterial& each : scene.materials) {
+    GroundMaterial& material = each.material;
+    if (auto flat = fill_detail(each.detail_file, each.where, scene, known, material.texture); !flat) return flat;
+    if (auto cliff = fill_detail(each.cliff_file, each.where, scene, known, material.cliff_texture); !cliff)
+      return cliff;
+  }
+  return {};
+}
+
 }  // namespace
 
 Expected<void> load_maps(Scene& scene) {
+  if (auto loaded = load_details(scene); !loaded) return loaded;
   Masks masks;
   PlantImages images;
   for (Layer& layer : scene.layers) {

@@ -27,7 +27,7 @@ struct Programs {
   std::optional<ClipmapRenderer> clipmap;
   Sky sky;
   std::vector<VegetationRenderer> vegetation;
-  std::vector<MeshRenderer> meshes;  // bodies of the layers on meshes
+  std::vector<MeshRenderer> meshes;    // bodies of the layers on meshes
   std::vector<ClipmapSeeder> seeders;  // of the layers, on a clipmap
 };
 
@@ -263,6 +263,9 @@ Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTer
   if (!frame) return tl::unexpected(frame.error());
   auto ground = terrain.make_textures();
   if (!ground) return tl::unexpected(ground.error());
+  const auto materials = ground_materials(scene);
+  if (!materials) return tl::unexpected(materials.error());
+  if (auto set = ground->set_materials(*materials); !set) return tl::unexpected(set.error());
   auto library = with_kinds(shaders, scene.layers, scene.directory);
   if (!library) return tl::unexpected(library.error());
   auto programs = build_programs(scene.layers, scene.source, terrain, *library, bindings);

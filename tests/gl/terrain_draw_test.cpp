@@ -397,6 +397,9 @@ TEST_F(TerrainDraw, UploadAndDrawLeaveWhatTheyDocument) {
   bindings.frame = 3;
   bindings.base_map = 9;
   bindings.slope_map = 11;
+  bindings.materials = 8;
+  bindings.detail = 2;
+  bindings.detail_slope = 6;
   Expected<TerrainRenderer> renderer = TerrainRenderer::create(library_, bindings);
   ASSERT_TRUE(renderer) << renderer.error().message;
   Expected<host::Sky> sky = host::Sky::create(library_, bindings);
@@ -420,8 +423,11 @@ TEST_F(TerrainDraw, UploadAndDrawLeaveWhatTheyDocument) {
                               {{"program", {0}},
                                {"vertex array", {0}},
                                {"uniform buffer 3", {0}},
+                               {"uniform buffer 8", {0}},
                                {"texture 2D 9", {0}},
-                               {"texture 2D 11", {0}}});
+                               {"texture 2D 11", {0}},
+                               {"texture 2D 2", {0}},
+                               {"texture 2D 6", {0}}});
   }
   {
     const test::PoisonedState poison;

@@ -77,7 +77,8 @@ void expect_draw_leaves_what_it_says(const Layer& layer, int samples) {
   GlState left =
       left_by_stage(bindings, {bindings.base_map, bindings.base_map_raw, bindings.triangles, bindings.surface,
                                bindings.exclusions, bindings.placement, bindings.blade_shape, bindings.plant_images,
-                               bindings.plant_mesh});
+                               bindings.plant_mesh, bindings.detail, bindings.detail_slope});
+  left["uniform buffer " + std::to_string(bindings.materials)] = {0};
   left["patch vertices"] = {1};
   expect_only_changed(before, capture_state(), left);
   EXPECT_GT(patch.renderer().stats(true).primitives, 0u);
@@ -114,8 +115,13 @@ TEST_F(VegetationState, BindingPointsCanBeMoved) {
   bindings.surface = 2;
   bindings.blade_shape = 11;
   bindings.plant_images = 10;
+  bindings.plant_mesh = 13;
+  bindings.clipmap_heights = 15;
   bindings.placement = 6;
   bindings.exclusions = 7;
+  bindings.materials = 2;
+  bindings.detail = 1;
+  bindings.detail_slope = 4;
   Patch patch(grass_and_soil(), plain_map(k_side, 8, k_green), bindings);
   auto target = host::RenderTarget::create({32, 24}, 1);
   ASSERT_TRUE(target) << target.error().message;

@@ -639,6 +639,7 @@ TEST(Scene, ThePageDescribesEveryKey) {
   const std::string page((std::istreambuf_iterator<char>(stream)), {});
   expect_described(scene_file::terrain_schema(), page);
   expect_described(scene_file::relief_schema(), page);
+  expect_described(scene_file::material_schema(), page);
   expect_described(scene_file::base_map_schema(), page);
   expect_described(scene_file::sun_schema(), page);
   expect_described(scene_file::haze_schema(), page);

@@ -29,6 +29,9 @@ std::vector<Define> binding_defines(const Bindings& bindings) {
       {"SWARD_BINDING_PLANT_MESH", std::to_string(bindings.plant_mesh)},
       {"SWARD_BINDING_PLACEMENT", std::to_string(bindings.placement)},
       {"SWARD_BINDING_EXCLUSIONS", std::to_string(bindings.exclusions)},
+      {"SWARD_BINDING_MATERIALS", std::to_string(bindings.materials)},
+      {"SWARD_BINDING_DETAIL", std::to_string(bindings.detail)},
+      {"SWARD_BINDING_DETAIL_SLOPE", std::to_string(bindings.detail_slope)},
   };
 }
 

@@ -58,7 +58,7 @@ FrameUniforms make_frame_uniforms(const View& view, const Lighting& lighting, do
   u.ground_radiance = glm::vec4(lighting.ground_radiance, 1.0f / lighting.haze_height_m);
   u.eye_noise = glm::vec4(glm::vec2(wrapped(view.eye.x, k_noise_period), wrapped(view.eye.y, k_noise_period)),
                           float(view.eye.z), float(samples));
-  u.up = glm::vec4(0.0f, 0.0f, 1.0f, 0.0f);
+  u.up = glm::vec4(0.0f, 0.0f, 1.0f, float(wrapped(view.eye.z, k_noise_period)));
   u.ground_tint = glm::vec4(lighting.ground_tint, 0.0f);
   return u;
 }

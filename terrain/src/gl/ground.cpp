@@ -52,16 +52,18 @@ Expected<void> check_texture_size(const char* what, glm::ivec2 size) {
               " exceeds this device's largest texture, " + std::to_string(limit) + "; use a smaller one");
 }
 
+bool anisotropic_filters() {
+  return (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic") ||
+          epoxy_has_gl_extension("GL_ARB_texture_filter_anisotropic")) &&
+         !software_renderer();  // blurs magnified texels, too
+}
+
 void set_trilinear(GLuint texture) {
   glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  if (!epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic") &&
-      !epoxy_has_gl_extension("GL_ARB_texture_filter_anisotropic")) {
-    return;
-  }
-  if (software_renderer()) return;  // blurs magnified texels, too
+  if (!anisotropic_filters()) return;
   GLfloat most = 1;
   glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
   glTextureParameterf(texture, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, k_anisotropy));
@@ -87,6 +89,7 @@ Expected<GroundTextures> GroundTextures::create(const Lattice& lattice, const Co
   GroundTextures ground(std::move(*slopes));
   ground.base_map_ = make_base_map(colors);
   ground.base_map_raw_ = make_raw_view(ground.base_map_.id());
+  if (Expected<void> empty = ground.set_materials({}); !empty) return tl::unexpected(empty.error());
   ground.map_min_ = colors.min_corner;
   ground.map_size_ = colors.size;
   ground.texels_ = {colors.width, colors.height};

@@ -52,9 +52,15 @@ GroundShading::GroundShading(const gl::Program& program, const gl::Bindings& bin
   bind_uniforms(bindings_.frame, frame.buffer());
   glBindTextureUnit(bindings_.base_map, ground.base_map());
   glBindTextureUnit(bindings_.slope_map, ground.slopes().texture());
+  glBindTextureUnit(bindings_.detail, ground.detail());
+  glBindTextureUnit(bindings_.detail_slope, ground.detail_slope());
+  bind_uniforms(bindings_.materials, ground.materials());
 }
 
 GroundShading::~GroundShading() {
+  bind_uniforms(bindings_.materials, 0);
+  glBindTextureUnit(bindings_.detail_slope, 0);
+  glBindTextureUnit(bindings_.detail, 0);
   glBindTextureUnit(bindings_.slope_map, 0);
   glBindTextureUnit(bindings_.base_map, 0);
   bind_uniforms(bindings_.frame, 0);

@@ -49,6 +49,9 @@ Expected<Scene> parse(std::string_view text, const std::string& name) {
     return tl::unexpected(read.error());
   }
   for (Layer& layer : scene.layers) layer.season = scene.season;
+  if (auto taken = scene_file::take_species_colors(parsed.table(), scene, context); !taken) {
+    return tl::unexpected(taken.error());
+  }
   return scene;
 }
 
@@ -79,6 +82,24 @@ glm::vec3 ground_tint(std::span<const GroundSeason> frames, float season) {
     carrier.seasons.back().values.tint = frame.tint;
   }
   return frames.empty() ? glm::vec3(1.0f) : season_values(carrier, season).tint;
+}
+
+Expected<std::vector<GroundMaterial>> ground_materials(const Scene& scene) {
+  if (!scene.splatting) return std::vector<GroundMaterial>();
+  if (scene.materials.empty()) return default_ground_materials();
+  std::vector<GroundMaterial> all;
+  for (const SceneMaterial& each : scene.materials) {
+    const GroundMaterial& m = each.material;
+    const bool missing = (!each.detail_file.empty() && !m.texture) || (!each.cliff_file.empty() && !m.cliff_texture);
+    if (missing) return fail(each.where + ": the images of material \"" + m.name + "\" are not loaded; load them");
+    all.push_back(m);
+  }
+  const bool covered = std::any_of(all.begin(), all.end(), [](const GroundMaterial& m) { return !m.reference_hsv; });
+  if (!covered && all.size() < size_t(k_max_materials)) {
+    all.emplace_back();
+    all.back().name = "soil";
+  }
+  return all;
 }
 
 std::string Scene::resolve(const std::string& path) const {

@@ -322,8 +322,10 @@ Expected<void> check_custom(const toml::table& table, const CustomKind&, const C
 
 /// Tables of a kind stand only with that kind; a custom one needs its.
 Expected<void> check_kind_tables(const toml::table& table, const Species& species, const Context& context) {
-  const std::pair<const char*, PlantKind> owners[] = {
-      {"tuft", PlantKind::tuft}, {"flower", PlantKind::flower}, {"custom", PlantKind::custom}, {"mesh", PlantKind::mesh}};
+  const std::pair<const char*, PlantKind> owners[] = {{"tuft", PlantKind::tuft},
+                                                      {"flower", PlantKind::flower},
+                                                      {"custom", PlantKind::custom},
+                                                      {"mesh", PlantKind::mesh}};
   for (const auto& [name, kind] : owners) {
     if (species.kind == kind) continue;
     const std::string because = "on another kind, expected only with kind = \"" + std::string(name) + "\"";
@@ -522,7 +524,8 @@ const Schema<Scene>& terrain_schema() {
        number("target_px", &Scene::target_px, at_least(0), "pixels"),
        choice<Scene, TerrainSource>("source", &Scene::source,
                                     {{"roam", TerrainSource::roam}, {"clipmap", TerrainSource::clipmap}}),
-       table<Scene, ReliefOptions>("relief", &Scene::relief, relief_schema())},
+       table<Scene, ReliefOptions>("relief", &Scene::relief, relief_schema()), flag("splatting", &Scene::splatting),
+       materials_key()},
       check_terrain};
   return schema;
 }
@@ -700,8 +703,9 @@ const Schema<Layer>& layer_schema() {
        number("density", &L::density, above(0), "plants a square metre or a unit of screen area"),
        number("full_distance_m", &L::full_distance_m, above(0), "metres"),
        number("falloff", &L::falloff, above_to(0, 16)), whole_number("ceiling", &L::ceiling, within(1, 1048576)),
-       flag("plain", &L::plain), flag("on_mesh", &L::on_mesh), number("full_segments_m", &L::full_segments_m, above(0), "metres"),
-       flag("shadows", &L::shadows), number("shadow_distance_m", &L::shadow_distance_m, at_least(0), "metres"),
+       flag("plain", &L::plain), flag("on_mesh", &L::on_mesh),
+       number("full_segments_m", &L::full_segments_m, above(0), "metres"), flag("shadows", &L::shadows),
+       number("shadow_distance_m", &L::shadow_distance_m, at_least(0), "metres"),
        number("water_level_m", &L::water_level_m, any_number(), "metres"),
        text("mask", &L::mask_file, "the path of an image"),
        text("distribution", &L::distribution_file, "the path of an image"),

@@ -12,6 +12,7 @@ namespace sward::scene_file {
 const Schema<Scene>& scene_schema();
 const Schema<Scene>& terrain_schema();
 const Schema<ReliefOptions>& relief_schema();
+const Schema<SceneMaterial>& material_schema();
 const Schema<Scene>& base_map_schema();
 const Schema<Scene>& sun_schema();
 const Schema<Scene>& haze_schema();
@@ -29,5 +30,10 @@ const Schema<SceneSurface>& surface_schema();
 const Schema<PlantMesh>& plant_mesh_schema();
 /// Surfaces and layers on meshes name each other.
 Expected<void> check_surfaces(const toml::table& table, const Scene& scene, const Context& context);
+
+/// `[[terrain.material]]`.
+Key<Scene> materials_key();
+/// Gives materials that name a species its reference colour and weights. Fails where there is none of that name.
+Expected<void> take_species_colors(const toml::table& table, Scene& scene, const Context& context);
 
 }  // namespace sward::scene_file

@@ -179,8 +179,11 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
                              {units.placement, inputs.placement.masks()},
                              {units.blade_shape, blade_shape_.id()},
                              {units.plant_images, image_array_.texture()},
-                             {units.plant_mesh, 0}},
+                             {units.plant_mesh, 0},
+                             {units.detail, inputs.ground.detail()},
+                             {units.detail_slope, inputs.ground.detail_slope()}},
                             inputs.triangles.clipmap());
+  glBindBufferBase(GL_UNIFORM_BUFFER, units.materials, inputs.ground.materials());
   glPatchParameteri(GL_PATCH_VERTICES, 1);
   glBindVertexArray(vertex_array_.id());
   for (size_t i = 0; i < classified.places().size(); ++i) {
@@ -197,6 +200,7 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
     }
   }
   set_stream(vertex_array_, 0);
+  glBindBufferBase(GL_UNIFORM_BUFFER, units.materials, 0);
   glBindVertexArray(0);
   glUseProgram(0);
 }

@@ -13,10 +13,11 @@ namespace sward::gl {
 /// anything; the numbers reach the shaders as defines.
 struct Bindings {
   // Uniform buffers.
-  GLuint frame = 0;         ///< SwardFrame
-  GLuint species = 1;       ///< SwardSpecies
-  GLuint clipmap = 2;       ///< SwardClipmap
-  GLuint seeding = 3;       ///< SwardSeeding
+  GLuint frame = 0;      ///< SwardFrame
+  GLuint species = 1;    ///< SwardSpecies
+  GLuint clipmap = 2;    ///< SwardClipmap
+  GLuint seeding = 3;    ///< SwardSeeding
+  GLuint materials = 5;  ///< SwardMaterials
   // Shader storage buffers.
   GLuint seed_ground = 0;   ///< What is static of candidate triangles
   GLuint seed_counts = 1;   ///< Seeds of each
@@ -24,18 +25,20 @@ struct Bindings {
   GLuint seed_frame = 3;    ///< Bins and draws
   GLuint seed_records = 4;  ///< Triangle records
   // Texture units.
-  GLuint base_map = 0;      ///< sRGB base map, filtered, decoded to linear
-  GLuint base_map_raw = 1;  ///< the same texels, encoded, for texelFetch
-  GLuint slope_map = 2;     ///< RG16F dz/dx, dz/dy of the data
-  GLuint triangles = 3;     ///< RGBA32UI buffer texture: triangle records
-  GLuint surface = 4;       ///< RGBA32UI buffer texture: surface nodes
-  GLuint blade_shape = 5;   ///< RGBA32F blade shapes
-  GLuint plant_images = 6;  ///< R8 array: details and cutouts of a layer's plants
+  GLuint base_map = 0;          ///< sRGB base map, filtered, decoded to linear
+  GLuint base_map_raw = 1;      ///< the same texels, encoded, for texelFetch
+  GLuint slope_map = 2;         ///< RG16F dz/dx, dz/dy of the data
+  GLuint triangles = 3;         ///< RGBA32UI buffer texture: triangle records
+  GLuint surface = 4;           ///< RGBA32UI buffer texture: surface nodes
+  GLuint blade_shape = 5;       ///< RGBA32F blade shapes
+  GLuint plant_images = 6;      ///< R8 array: details and cutouts of a layer's plants
+  GLuint plant_mesh = 9;        ///< RGBA32F buffer texture: the mesh of a plant
   GLuint clipmap_heights = 10;  ///< R32F array: heights of clipmap rings
   GLuint clipmap_relief = 11;   ///< RG16F array: their relief's gradients
-  GLuint plant_mesh = 13;   ///< RGBA32F buffer texture: the mesh of a plant
-  GLuint placement = 14;    ///< RGBA32UI buffer texture: masks
-  GLuint exclusions = 15;   ///< RGBA32F buffer texture: excluded shapes near triangles
+  GLuint detail = 12;           ///< RGBA8 array: the ground's detail textures
+  GLuint detail_slope = 13;     ///< RG8_SNORM array: their slopes
+  GLuint placement = 14;        ///< RGBA32UI buffer texture: masks
+  GLuint exclusions = 15;       ///< RGBA32F buffer texture: excluded shapes near triangles
 };
 
 struct Define;

@@ -42,7 +42,7 @@ struct FrameUniforms {
   glm::vec4 horizon_radiance;    ///< w: 1 / haze distance.
   glm::vec4 ground_radiance;     ///< w: 1 / haze height.
   glm::vec4 eye_noise;           ///< Eye's x, y modulo 1024 m, for world-stable noise; z: eye's height, w: samples of the target.
-  glm::vec4 up;                  ///< xyz: world up; w unused.
+  glm::vec4 up;                  ///< xyz: world up; w: eye's height modulo 1024 m.
   glm::vec4 ground_tint;         ///< xyz: factor on green ground; w unused.
 };
 

@@ -21,9 +21,10 @@ class TerrainRenderer {
   size_t upload(const RoamMesh& mesh);
 
   /// Draws the visible leaves into the bound framebuffer with one indexed draw.
-  /// Binds: program, vertex array, uniform buffer bindings.frame, textures bindings.base_map, bindings.slope_map.
+  /// Binds: program, vertex array, uniform buffers bindings.frame, bindings.materials, textures bindings.base_map,
+  /// bindings.slope_map, bindings.detail, bindings.detail_slope.
   /// Sets: nothing else; the host chooses depth test (GL_LESS, GL_LEQUAL or reversed), culling, blending, masks.
-  /// Leaves: program 0, vertex array 0, those texture units and that uniform buffer binding 0.
+  /// Leaves: program 0, vertex array 0, those texture units and uniform buffer bindings 0.
   /// Padding around the data is discarded. `view` must be the one that the frame was filled with.
   void draw(const View& view, const gl::Frame& frame, const gl::GroundTextures& ground);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <sward/terrain/color_map.h>
+#include <sward/terrain/ground_material.h>
 #include <sward/terrain/height_field.h>
 #include <sward/vegetation/species.h>
 #include <optional>
@@ -43,6 +44,15 @@ enum class TerrainSource {
   clipmap,  ///< gl::Clipmap and ClipmapRenderer; seeding on the GPU.
 };
 
+/// A material of the ground as a scene file names it.
+struct SceneMaterial {
+  GroundMaterial material;
+  std::string species;      ///< Whose reference colour and weights it has; empty: its own.
+  std::string detail_file;  ///< An image in place of the generated detail; empty: none. As all paths, not loaded.
+  std::string cliff_file;
+  std::string where;        ///< "FILE:LINE", for errors of the images.
+};
+
 /// A scene as a TOML file names it. Paths are kept as written; resolve() makes them relative to the file's folder.
 struct Scene {
   std::string name;
@@ -67,6 +77,11 @@ struct Scene {
   TerrainSource source = TerrainSource::roam;
   uint32_t max_triangles = 20000;
   float target_px = 0;
+
+  bool splatting = true;        ///< Detail textures on the ground.
+
+  // [[terrain.material]]
+  std::vector<SceneMaterial> materials;  ///< Empty: default_ground_materials().
 
   // [base_map]
   std::string texture_path;  ///< Empty: the generator's, or none.
@@ -94,6 +109,11 @@ struct Scene {
 
   std::string resolve(const std::string& path) const;
 };
+
+/// What the ground of a scene is made of, for GroundTextures::set_materials: none without splatting; soil is added to a
+/// list of which nothing is everywhere. Fails where an
+/// image is named that has not been put into Scene::materials.
+Expected<std::vector<GroundMaterial>> ground_materials(const Scene& scene);
 
 /// Reads and checks a scene. Errors read "FILE:LINE: what is wrong, what was expected"; unknown keys, wrong types,
 /// values out of range and contradictions (a generator and a height file, say) are errors.

@@ -78,10 +78,10 @@ class VegetationRenderer {
 
   /// Grows and draws every species, shadows included. Binds: programs, vertex array, uniform buffers frame and species,
   /// texture units base_map, base_map_raw, triangles, surface, exclusions, placement, blade_shape, plant_images,
-  /// plant_mesh; sets GL_PATCH_VERTICES 1. Leaves: program 0, vertex array 0, those units (their samplers too) and bindings 0, patch
-  /// vertices 1. The host chooses depth test, depth mask, culling (must be off), blending (must be off). Thin plants
-  /// cover some of a pixel's samples: the shaders write the mask (frame.samples() must be the target's), alpha is 1.
-  /// Draws nothing before the first classify.
+  /// plant_mesh, detail, detail_slope and the uniform buffer materials; sets GL_PATCH_VERTICES 1. Leaves: program 0,
+  /// vertex array 0, those units (their samplers too) and bindings 0, patch vertices 1. The host chooses depth test,
+  /// depth mask, culling (must be off), blending (must be off). Thin plants cover some of a pixel's samples: the shaders
+  /// write the mask (frame.samples() must be the target's), alpha is 1. Draws nothing before the first classify.
   void draw(const gl::Frame& frame, const gl::GroundTextures& ground);
 
   /// Results of the queries of the last classify and draw; `wait` blocks until they are there.
