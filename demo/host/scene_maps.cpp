@@ -141,9 +141,10 @@ Expected<void> load_maps(Scene& scene) {
     if (auto filled = fill_mask(layer.mask_file, scene, masks, layer.mask); !filled) return filled;
     for (Species& species : layer.species)
       if (auto filled = fill_mask(species.mask_file, scene, masks, species.mask); !filled) return filled;
-    for (Species& species : layer.species)
+    for (Species& species : layer.species) {
       if (auto filled = fill_images(scene, images, species); !filled) return filled;
       if (auto filled = fill_plant_mesh(scene, species); !filled) return filled;
+    }
     if (layer.distribution_file.empty()) continue;
     auto colors = load_map(scene.resolve(layer.distribution_file));
     if (!colors) return tl::unexpected(colors.error());

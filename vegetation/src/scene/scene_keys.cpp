@@ -362,6 +362,11 @@ Expected<void> check_kind(const toml::table& table, const Species& species, cons
                        "on stones (kind = \"gravel\")", context);
     if (!fits) return fits;
   }
+  if (kind == PlantKind::mesh) {
+    auto fits = refuse(table, {"segments", "detail", "detail_strength", "detail_repeat"},
+                       "on plants that are meshes (kind = \"mesh\")", context);
+    if (!fits) return fits;
+  }
   if (kind == PlantKind::litter) {
     auto fits = refuse(table, {"lean_deg", "phototropism"}, "on what lies flat (kind = \"litter\")", context);
     if (!fits) return fits;
