@@ -50,6 +50,7 @@ std::string read_file(const std::filesystem::path& path) {
 
 gl::ShaderLibrary library() {
   gl::ShaderLibrary shaders;
+  shaders.add_source("plant_kind.glsl", "#include \"kind_blade.glsl\"\n");
   for (const char* name : {"expand.comp.glsl", "pull.vert.glsl", "flat_pull.frag.glsl", "flat_strip.frag.glsl"})
     shaders.add_source(name, read_file(std::filesystem::path(SWARD_BENCH_SHADERS) / name));
   return shaders;
@@ -102,9 +103,10 @@ struct Prepared {
   gl::Texture shape_texture;
   StageQueries queries;
   std::vector<uint32_t> fertile;
+  TriangleTextures textures;
 
   StageInputs inputs(const gl::Bindings& bindings) const {
-    return {bindings, frame, ground, triangles, placement, species.id()};
+    return {bindings, frame, ground, textures, placement, species.id()};
   }
 };
 
@@ -117,6 +119,7 @@ void prepare(Prepared& p, const Scene& scene, const host::SceneTerrain& terrain,
   p.cpu.seed_triangles(view, terrain.colors());
   const host::LayerFrame& layer = p.cpu.layers()[0];
   need(p.triangles.write(layer.seeding.records, layer.triangles.nodes(), layer.seeding.exclusions));
+  p.textures = TriangleTextures(p.triangles);
   p.frame.upload(view, gl::Lighting::clear_day(scene.sun_azimuth, scene.sun_elevation), 0.0, samples);
   const MapGeometry map = classification_map(p.layer, {p.ground.map_size(), p.ground.texels()});
   p.placement.follow(p.layer, map, p.ground.base_map_raw());
@@ -124,7 +127,7 @@ void prepare(Prepared& p, const Scene& scene, const host::SceneTerrain& terrain,
   glNamedBufferSubData(p.species.id(), 0, sizeof params, &params);
   p.classification.reserve(layer.seeding.clusters);
   p.queries.begin_frame(layer.seeding.clusters);
-  p.classification.run(p.inputs(bindings), layer.seeding.bins, p.queries, framebuffer);
+  p.classification.run(p.inputs(bindings), {.bins = layer.seeding.bins}, p.queries, framebuffer);
   p.fertile = p.queries.fertile();
 }
 
@@ -139,6 +142,8 @@ Programs build(const Layer& layer, const gl::Bindings& bindings) {
   std::vector<gl::Define> plain = defines, counted = defines;
   plain.push_back({"SWARD_COUNTED", "0"});
   counted.push_back({"SWARD_COUNTED", "1"});
+  // As growth's own programs are; nothing of the light is read here.
+  defines.push_back({"SWARD_LIT_AT_VERTICES", "1"});
   gl::ProgramDesc blades{.name = "tessellated",
                          .vertex = "grow.vert.glsl",
                          .tess_control = "grass_blade.tesc.glsl",
@@ -387,6 +392,7 @@ int run(const std::string& path) {
                     make_buffer(shapes.texels.size() * sizeof(glm::vec4), shapes.texels.data(), 0),
                     gl::create_texture(GL_TEXTURE_BUFFER),
                     StageQueries::create(classification.places().size()),
+                    {},
                     {}};
   glTextureBuffer(prepared.shape_texture.id(), GL_RGBA32F, prepared.shapes.id());
 
