@@ -207,6 +207,7 @@ class Ways {
       glBindVertexArray(array_.id());
       set_stream(array_, pass.stream(place.stream));
       use(programs_.tessellated, place);
+      glProgramUniform4f(programs_.tessellated.id(), 1, -1, 0, 0, -1);  // no images
       glDrawTransformFeedbackStream(GL_PATCHES, pass.id(), GLuint(place.stream));
     });
   }
