@@ -124,6 +124,9 @@ TEST_F(PlantShading, BladesGlowAgainstTheSun) {
   // With the sun behind the eye hardly any light comes through to it.
   const double with_it = light_with(0.6f, -90), opaque_with_it = light_with(0, -90);
   EXPECT_GT(against - opaque, 3 * (with_it - opaque_with_it));
+  // From the side half of the blades are lit from behind, but less of it comes this way.
+  const double aside = light_with(0.6f, 0) - light_with(0, 0);
+  EXPECT_GT(against - opaque, 3.5 * aside) << (against - opaque) / aside;
 }
 
 /// Mean arc length of the streak on bent blades, and its whole light.
@@ -477,9 +480,11 @@ TEST_F(PlantShading, ShadowsFollowGroundThatBends) {
     for (const float elevation : {10.0f, 45.0f}) {
       const double followed = spread(probe, elevation), plane = spread(flat, elevation);
       RecordProperty("followed_" + std::to_string(int(elevation)), std::to_string(followed));
-      // The longer the shadow, the more it leaves the plane of its root; the shortest lie on it.
-      const double share = elevation > 20 ? 1.001 : slope == 0 ? 0.65 : 0.9;
-      EXPECT_LT(followed, share * plane) << elevation << ": " << followed;
+      // The longer the shadow, the more it leaves the plane of its root; short ones lie within millimetres either way.
+      const double share = slope == 0 ? 0.65 : 0.9;
+      if (elevation < 20) {
+        EXPECT_LT(followed, share * plane) << elevation << ": " << followed;
+      }
       EXPECT_LT(followed, 0.01) << elevation;
     }
   }
@@ -506,6 +511,7 @@ TEST_F(PlantShading, ShadowsFadeAsTheSunSets) {
   double most = *std::max_element(energy.begin(), energy.end());
   for (size_t i = 1; i < energy.size(); ++i)
     EXPECT_LT(std::abs(energy[i] - energy[i - 1]), 0.15 * most) << 6 - 0.25 * double(i) << " degrees";
+  EXPECT_GT(energy[20], 0.0);  // 1 degree: still some
   EXPECT_EQ(energy[24], 0.0);  // on the horizon
   EXPECT_LT(energy[23], 0.02 * most);
   EXPECT_EQ(energy.back(), 0.0);
