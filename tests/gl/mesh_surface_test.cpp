@@ -251,6 +251,9 @@ TEST_F(MeshSurfaces, TheBodyLeavesWhatItSays) {
   ASSERT_TRUE(frame);
   const View view = View::look({-4, 0, 1.2}, 0, 0, 60 * k_degree, k_size, 0.05, 100);
   frame->upload(view, gl::Lighting(), 0, 1);
+  auto target = host::RenderTarget::create(k_size, 1);
+  ASSERT_TRUE(target) << target.error().message;
+  target->begin();
   const PoisonedState poison;
   const GlState before = capture_state();
   auto body = MeshRenderer::create(*surface, ivy(), gl::ShaderLibrary());
