@@ -274,13 +274,15 @@ TEST(MeshShaders, AreStrictGlsl) {
   for (const std::string file :
        {"mesh_body.vert.glsl",   "mesh_body.frag.glsl",   "classify.vert.glsl",    "grass_blade.tesc.glsl",
         "grass_blade.tese.glsl", "grass_blade.geom.glsl", "grass_blade.frag.glsl", "shoot.tesc.glsl",
-        "shoot.tese.glsl",       "shoot.frag.glsl",       "flower_head.tesc.glsl", "flower_head.tese.glsl",
-        "flower_head.geom.glsl", "flower_head.frag.glsl", "gravel.tesc.glsl",      "gravel.geom.glsl",
-        "leaf.tesc.glsl",        "leaf.tese.glsl",        "leaf.geom.glsl",        "leaf.frag.glsl",
-        "litter.geom.glsl",      "litter.frag.glsl",      "billboard.geom.glsl",   "billboard.frag.glsl",
-        "fern.frag.glsl",        "read_back.vert.glsl"}) {
+        "shoot.tese.glsl",       "flower_head.tesc.glsl", "flower_head.tese.glsl", "flower_head.geom.glsl",
+        "flower_head.frag.glsl", "gravel.tesc.glsl",      "gravel.geom.glsl",      "leaf.tesc.glsl",
+        "leaf.tese.glsl",        "leaf.geom.glsl",        "leaf.frag.glsl",        "litter.geom.glsl",
+        "litter.frag.glsl",      "billboard.geom.glsl",   "billboard.frag.glsl",   "fern.frag.glsl",
+        "read_back.vert.glsl"}) {
     const std::string stage = file.substr(file.find('.') + 1, 4);
-    const auto text = shaders.resolve(file, layer_defines(ivy(), {}));
+    std::vector<gl::Define> defines = layer_defines(ivy(), {});
+    defines.push_back({"SWARD_LIT_AT_VERTICES", "1"});
+    const auto text = shaders.resolve(file, defines);
     ASSERT_TRUE(text) << text.error().message;
     std::ofstream(path + stage) << text->text;
     EXPECT_EQ(std::system(("glslangValidator " + path + stage).c_str()), 0) << file;
