@@ -21,7 +21,7 @@ layout(std140, binding = SWARD_BINDING_SEEDING) uniform SwardSeeding {
   dvec2 spacing;    // between samples, metres
   dvec2 middle;     // of the data, samples: half of columns - 1, of rows - 1
   dvec2 eye_xy;     // world
-  dvec2 scale;      // x: samples a lattice unit
+  dvec2 scale;      // samples a lattice unit; how far plants and shadows reach aside (m)
   vec4 plane[6];    // halfspaces of the frustum, relative to the eye
   mat4 clip;        // clip from relative to the eye
   ivec4 window;     // first column and row of cells around the eye, columns, rows

@@ -14,7 +14,8 @@ bool in_frustum(DrawnCandidate t, float deviation) {
     vec4 plane = sward_seeding.plane[i];
     float most = dot(plane.xyz, t.apex) + plane.w +
                  max(max(dot(plane.xyz, t.to_left), dot(plane.xyz, t.to_right)), 0.0) +
-                 max(plane.z, 0.0) * sward_seeding.view.z + abs(plane.z) * deviation;
+                 max(plane.z, 0.0) * sward_seeding.view.z + abs(plane.z) * deviation +
+                 length(plane.xy) * float(sward_seeding.scale.y);
     if (most < 0.0) return false;
   }
   return true;

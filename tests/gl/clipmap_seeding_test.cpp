@@ -112,6 +112,7 @@ struct OnMesh {
     level.level = level_for_area(*meadow.ground.field, double(meadow.layer.triangle_area_m2));
     level.horizon_m = meadow.layer.horizon_m * float(meadow.view.zoom());
     level.canopy_m = canopy_height(meadow.layer);
+    level.spread_m = canopy_spread(meadow.layer);
     level.skip_back_faces = meadow.layer.plain;
     level.altitudes = needs_altitudes(meadow.layer);
     mesh.fixed_level_triangles(level, triangles);
@@ -152,8 +153,8 @@ void expect_same_records(const Seeding& gpu, const Seeding& cpu, DensityLaw law)
     if (law == DensityLaw::distance) wrong += a.limit != b.limit;
   }
   EXPECT_EQ(wrong, 0u);
-  EXPECT_GE(double(common), 0.8 * double(theirs.size()));
-  EXPECT_GT(common, 20u);
+  // All but a few at the frustum's sides, where the one or the other knows its ground's height a little better.
+  EXPECT_GE(double(common), 0.97 * double(theirs.size()));
 }
 
 bool in_picture(const View& view, glm::dvec3 place) {
@@ -223,7 +224,8 @@ void expect_good_bins(const Meadow& meadow) {
   EXPECT_LE(s.clusters, meadow.seeder.most_clusters());
 }
 
-void expect_same_as_everywhere(Meadow& meadow, size_t at_least) {
+/// Returns how many plants were compared.
+size_t expect_same_as_everywhere(Meadow& meadow, size_t at_least) {
   expect_good_bins(meadow);
   const std::vector<Plant> gpu = meadow.gpu(), twin = meadow.twin();
   const OnMesh mesh(meadow);
@@ -237,7 +239,8 @@ void expect_same_as_everywhere(Meadow& meadow, size_t at_least) {
   EXPECT_LE(double(with_mesh.missing + with_mesh.extra), 0.002 * double(with_mesh.matched) + 0.5)
       << with_mesh.missing << " missing, " << with_mesh.extra << " extra of " << with_mesh.matched;
   for (const Plant& plant : gpu)
-    ASSERT_NEAR(plant.position.z, meadow.clipmap.rings().height(glm::dvec2(plant.position)), 1e-3);
+    EXPECT_NEAR(plant.position.z, meadow.clipmap.rings().height(glm::dvec2(plant.position)), 1e-3);
+  return with_twin.matched;
 }
 
 TEST_F(ClipmapSeeding, TheSamePlantsAtEvenAndOddLevels) {
@@ -255,6 +258,7 @@ TEST_F(ClipmapSeeding, TheSamePlantsFromAnyEye) {
   ASSERT_TRUE(at.exclusions.add(ExclusionShape::disc({-20, 10}, 12)));
   ASSERT_TRUE(at.exclusions.add(ExclusionShape::polygon({{10, -30}, {40, -25}, {30, 5}})));
   std::mt19937 random(23);
+  size_t compared = 0;
   std::uniform_real_distribution<double> unit(0, 1);
   for (int i = 0; i < 14; ++i) {
     SCOPED_TRACE(i);
@@ -262,8 +266,9 @@ TEST_F(ClipmapSeeding, TheSamePlantsFromAnyEye) {
     at.look(
         view_over(at.ground, xy, 1 + 12 * unit(random) * unit(random), 360 * unit(random), -10 - 50 * unit(random)));
     if (at.seeding.records.size() < 60) continue;  // out over the edge
-    expect_same_as_everywhere(at, 10);
+    compared += expect_same_as_everywhere(at, 0);
   }
+  EXPECT_GT(compared, 2000u);
 }
 
 TEST_F(ClipmapSeeding, TheSamePlantsUnderEveryLaw) {

@@ -25,7 +25,7 @@ SeedingUniforms make_seeding_uniforms(const Layer& layer, const View& view, cons
   u.spacing = lattice.spacing;
   u.middle = 0.5 * glm::dvec2(lattice.columns - 1, lattice.rows - 1);
   u.eye_xy = glm::dvec2(view.eye);
-  u.scale.x = 1.0 / double(lattice.sample_step());
+  u.scale = {1.0 / double(lattice.sample_step()), double(canopy_spread(layer))};
   const std::array<Plane, 6> planes = frustum_planes(view);
   for (size_t i = 0; i < planes.size(); ++i) u.plane[i] = glm::vec4(glm::vec3(planes[i].n), float(planes[i].d));
   u.clip = glm::mat4(view.clip_from_relative());
