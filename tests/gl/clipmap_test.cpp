@@ -223,7 +223,9 @@ TEST_F(ClipmapDraw, DrawLeavesWhatItSays) {
   GlState left{{"program", {0}}, {"vertex array", {0}}};
   left["uniform buffer " + std::to_string(bindings.frame)] = {0};
   left["uniform buffer " + std::to_string(bindings.clipmap)] = {0};
-  for (const GLuint unit : {bindings.base_map, bindings.slope_map, bindings.clipmap_heights, bindings.clipmap_relief})
+  left["uniform buffer " + std::to_string(bindings.materials)] = {0};
+  for (const GLuint unit : {bindings.base_map, bindings.slope_map, bindings.detail, bindings.detail_slope,
+                            bindings.clipmap_heights, bindings.clipmap_relief})
     for (const char* kind : {"texture 2D ", "texture 2D array ", "texture buffer ", "sampler "})
       left[kind + std::to_string(unit)] = {0};
   expect_only_changed(before, capture_state(), left);
