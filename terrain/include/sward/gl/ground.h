@@ -32,7 +32,7 @@ class GroundTextures {
 
   /// Puts these materials' detail textures on the ground near the eye, in place of what was there; none: the finer
   /// octaves of noise instead. Where no material matches there is no texture: include one that is everywhere. Generates the textures that are named. Fails, changing nothing, where the materials do not
-  /// validate or the device has no room for them. Leaves all state as it was. Cost: some 10 ms and 2 MB of GPU memory a
+  /// validate or the device has no room for them. Leaves all state as it was. Cost: some 35 ms of a core and 2 MB a
   /// different texture.
   Expected<void> set_materials(std::span<const GroundMaterial> materials);
 

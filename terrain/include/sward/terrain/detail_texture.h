@@ -43,7 +43,7 @@ struct DetailTexture {
 std::span<const std::string_view> generated_details();
 
 /// Paints one of them; the same bytes on every call and machine of the same floating point. Fails on another name,
-/// listing those that there are. Any thread. Cost: 5 to 15 ms.
+/// listing those that there are. Any thread. Cost: 20 to 60 ms.
 Expected<DetailTexture> generate_detail(std::string_view name);
 
 /// From an image of any square size from 16 to 8192 texels a side (sRGB; alpha is ignored), resampled by areas. Colours
