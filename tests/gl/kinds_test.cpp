@@ -35,7 +35,7 @@ bool lit(glm::ivec3 color) {
   return color.x + color.y + color.z > 0;
 }
 bool red(glm::ivec3 color) {
-  return color.x > 40 && color.x > 2 * color.y && color.x > 2 * color.z;
+  return color.x > 24 && color.x > 2 * color.y && color.x > 2 * color.z;
 }
 bool blue(glm::ivec3 color) {
   return color.z > 40 && color.z > 2 * color.x && color.z > 2 * color.y;

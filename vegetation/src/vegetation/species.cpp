@@ -368,11 +368,12 @@ float canopy_height(const Layer& layer) {
 
 float canopy_spread(const Layer& layer) {
   constexpr float k_longest_shadow = 3.0f;  // heights (shaders/common_visible.glsl)
+  constexpr float k_tall_m = 2.0f;
   const float height = canopy_height(layer);
   float reach = height;
   for (const Species& species : layer.species)
     if (species.kind != PlantKind::none) reach = std::max(reach, 0.5f * species.width_m.max);
-  return layer.shadows ? reach + k_longest_shadow * height : reach;
+  return layer.shadows && height >= k_tall_m ? reach + k_longest_shadow * height : reach;
 }
 
 }  // namespace sward
