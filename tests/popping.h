@@ -18,9 +18,10 @@ namespace popping {
 constexpr double k_frame_s = 1.0 / 60, k_speed = 1.5;  // metres a second
 constexpr glm::ivec2 k_viewport(1280, 720);
 
-/// A walk over `terrain`: 0 straight on at eye level; 1 in a circle, turning the head as well; 2 up and down between
-/// 1.5 and 10 m above the ground, nodding.
-inline sward::View walk(const roam_support::Terrain& terrain, int path, int frame) {
+/// A walk over ground of height(xy): 0 straight on at eye level; 1 in a circle, turning the head as well; 2 up and down
+/// between 1.5 and 10 m above the ground, nodding.
+template <class Height>
+sward::View walk_over(Height&& height, int path, int frame) {
   const double t = frame * k_frame_s, s = k_speed * t;
   glm::dvec2 xy(0);
   double above = 1.7, yaw = 0.4, pitch = -0.1;
@@ -36,7 +37,11 @@ inline sward::View walk(const roam_support::Terrain& terrain, int path, int fram
   }
   const glm::dvec2 start(-30.0 + 15.0 * path, 20.0);
   const glm::dvec2 at = start + xy;
-  return sward::View::look({at, terrain.field->height(at) + above}, yaw, pitch, 0.87, k_viewport, 0.1, 2000);
+  return sward::View::look({at, height(at) + above}, yaw, pitch, 0.87, k_viewport, 0.1, 2000);
+}
+
+inline sward::View walk(const roam_support::Terrain& terrain, int path, int frame) {
+  return walk_over([&](glm::dvec2 at) { return terrain.field->height(at); }, path, frame);
 }
 
 inline roam_support::Terrain hills() {

@@ -329,15 +329,6 @@ Cost measure(host::RenderTarget& target, const std::function<void()>& before, bo
   return cost;
 }
 
-SpeciesBlock species_block(const Layer& layer) {
-  SpeciesBlock block;
-  const std::vector<shared::SpeciesParams> params = make_species_params(layer);
-  std::copy(params.begin(), params.end(), block.species.begin());
-  for (const StreamPlace& place : place_species(layer))
-    block.species[size_t(place.species)].kind.w = float(place.pass * k_streams + place.stream);
-  return block;
-}
-
 void print_counts(const std::vector<std::array<uint32_t, 5>>& counts, const std::vector<uint32_t>& submitted,
                   const std::vector<uint32_t>& fertile) {
   const auto middle = [&](size_t what) {
@@ -379,7 +370,7 @@ int run(const std::string& path) {
   auto classification = need(ClassificationStage::create(layer, shaders, bindings));
   auto placement = need(PlacementTextures::create(layer));
   auto triangles = TriangleBuffers::create();
-  const SpeciesBlock block = species_block(layer);
+  const SpeciesBlock block = make_species_block(layer);
   const BladeShapes shapes = need(make_blade_shapes());
   Prepared prepared{layer,
                     cpu,

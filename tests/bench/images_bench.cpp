@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <numbers>
 #include <string>
 #include <thread>
 
@@ -16,13 +15,13 @@
 #include "host/egl_context.h"
 #include "host/render_target.h"
 #include "host/scene_renderer.h"
+#include "popping.h"
 
 namespace sward {
 namespace {
 
-constexpr glm::ivec2 k_size(1280, 720);
+constexpr glm::ivec2 k_size = popping::k_viewport;
 constexpr int k_frames = 300;
-constexpr double k_frame_s = 1.0 / 60, k_speed = 1.5;
 
 const char* const k_scene = R"(
 name = "full detail"
@@ -53,25 +52,6 @@ T need(Expected<T> value) {
   if (value) return std::move(*value);
   std::fprintf(stderr, "bench_images: %s\n", value.error().message.c_str());
   std::exit(1);
-}
-
-/// The walks of tests/popping.h.
-View walk(const host::SceneTerrain& terrain, int path, int frame) {
-  const double t = frame * k_frame_s, s = k_speed * t;
-  glm::dvec2 xy = s * glm::dvec2(std::cos(0.4), std::sin(0.4));
-  double above = 1.7, yaw = 0.4, pitch = -0.1;
-  if (path == 1) {
-    xy = 6.0 * glm::dvec2(std::sin(s / 6.0), 1.0 - std::cos(s / 6.0));
-    yaw = s / 6.0 + 0.5 * std::sin(1.3 * t);
-  }
-  if (path == 2) {
-    above = 1.5 + 8.5 * (0.5 - 0.5 * std::cos(0.35 * t));
-    xy = {0.2 * s, 0.1 * s};
-    pitch = -0.35 + 0.25 * std::sin(0.9 * t);
-  }
-  const glm::dvec2 at = glm::dvec2(-30.0 + 15.0 * path, 20.0) + xy;
-  const double fov_y = 50 * std::numbers::pi / 180;
-  return View::look({at, terrain.surface().height(at) + above}, yaw, pitch, fov_y, k_size, 0.1, 5000);
 }
 
 Scene scene_of(const std::function<void(Layer&)>& change) {
@@ -127,7 +107,8 @@ int run(int between, const std::string& folder) {
     std::array<std::vector<double>, 2> differences;
     double worst = 0;
     for (int at = 0; at < k_frames; at += between) {
-      const View view = walk(*terrain, path, at);
+      const View view =
+          popping::walk_over([&](glm::dvec2 at_xy) { return terrain->surface().height(at_xy); }, path, at);
       for (Way& way : ways) {
         target.begin();
         // Twice: the mesh of the first picture may still be moving to its place.

@@ -16,16 +16,6 @@ namespace {
 
 constexpr size_t k_query_frames = 3;
 
-/// The layer's own parameters are the frame's: classify() writes them.
-SpeciesBlock make_species_block(const Layer& layer) {
-  SpeciesBlock block;
-  const std::vector<shared::SpeciesParams> params = make_species_params(layer);
-  std::copy(params.begin(), params.end(), block.species.begin());
-  for (const StreamPlace& place : place_species(layer))
-    block.species[size_t(place.species)].kind.w = float(place.pass * k_streams + place.stream);
-  return block;
-}
-
 }  // namespace
 
 struct VegetationRenderer::Impl {

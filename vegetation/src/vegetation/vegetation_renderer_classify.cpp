@@ -36,6 +36,15 @@ std::vector<StreamPlace> place_species(const Layer& layer) {
   return places;
 }
 
+SpeciesBlock make_species_block(const Layer& layer) {
+  SpeciesBlock block;
+  const std::vector<shared::SpeciesParams> params = make_species_params(layer);
+  std::copy(params.begin(), params.end(), block.species.begin());
+  for (const StreamPlace& place : place_species(layer))
+    block.species[size_t(place.species)].kind.w = float(place.pass * k_streams + place.stream);
+  return block;
+}
+
 int shoots_per_patch(const Layer& layer) {
   constexpr int k_most_lines = 64;  // of a patch, GL's own limit
   return std::min(k_most_lines / layer.cluster_size, k_most_shoots);

@@ -29,8 +29,7 @@ StageQueries StageQueries::create(size_t streams) {
     queries.generated_.push_back(gl::create_query(GL_PRIMITIVES_GENERATED));
   }
   queries.primitives_ = gl::create_query(GL_PRIMITIVES_GENERATED);
-  if (epoxy_has_gl_extension("GL_ARB_pipeline_statistics_query"))
-    queries.fragments_ = gl::name_query();
+  if (epoxy_has_gl_extension("GL_ARB_pipeline_statistics_query")) queries.fragments_ = gl::name_query();
   return queries;
 }
 

@@ -31,6 +31,9 @@ int shoots_per_patch(const Layer& layer);
 /// Defines of every program of a layer.
 std::vector<gl::Define> layer_defines(const Layer& layer, const gl::Bindings& bindings);
 
+/// Its species, and where each is fed back to. The layer's own parameters are the frame's: classify() writes them.
+SpeciesBlock make_species_block(const Layer& layer);
+
 /// What every stage reads in a frame.
 struct StageInputs {
   const gl::Bindings& bindings;
