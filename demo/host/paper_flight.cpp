@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 //
-// The flight of K. Papavasiliou, "Grass on Terrain" (2015), section 4: high, near the ground after ten seconds,
+// The flight of D. Papavasiliou, "Real-Time Grass on Terrain" (2015), section 4: high, near the ground after ten seconds,
 // climbing after the twentieth. The paper gives no more than that; the rest is chosen here so that the flight fits any
 // field: a shallow S through the field's middle, at a speed that follows the height, scaled down where the field is
 // too small for it.
