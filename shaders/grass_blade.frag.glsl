@@ -10,7 +10,7 @@
 layout(location = 7) in vec3 strip_lit;  // of the shadow, and of the leaf where SWARD_LIT_AT_VERTICES
 
 // Metres within which shadows lie on the ground's own structure; beyond twice that they are of one colour.
-const float k_near_shadow = 3.0;
+const float k_near_shadow = 1.0;
 
 vec3 leaf_color() {
   vec2 place = vec2(strip_normal.w, strip_point.w);
