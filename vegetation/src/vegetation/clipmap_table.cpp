@@ -105,15 +105,6 @@ bool ClipmapTable::references_moved() {
   return moved;
 }
 
-// Whether the ground's colours can feed no species there, as seed() asks.
-bool ClipmapTable::barren(glm::dvec2 apex, glm::dvec2 left, glm::dvec2 right) {
-  const glm::dvec2 corner(map_.min_corner.x, map_.min_corner.y + map_.size.y);
-  const glm::dvec2 texels_per_m =
-      glm::dvec2(classification_map(layer_, geometry_of(map_)).texels) / map_.size * glm::dvec2(1, -1);
-  const auto place = [&](glm::dvec2 at) { return (at - corner) * texels_per_m; };
-  return fertile_.barren(place(apex), place(left), place(right));
-}
-
 Expected<void> ClipmapTable::resize(glm::ivec2 cells) {
   const glm::ivec2 memory(int(std::bit_ceil(unsigned(cells.x))), int(std::bit_ceil(unsigned(cells.y))));
   if (size_t(cells.x) * size_t(cells.y) * size_t(a_cell_) > k_most_candidates)
@@ -217,7 +208,7 @@ SeedGround ClipmapTable::make(glm::ivec2 cell, int triangle) {
   const LatticePoint end = lattice.last();
   if (box.first.x >= end.x || box.first.y >= end.y || surface_->all_holes(box)) return ground;
   const glm::dvec2 apex = lattice.world_xy(c.apex), left = lattice.world_xy(c.left), right = lattice.world_xy(c.right);
-  if (barren(apex, left, right)) return ground;
+  if (fertile_.barren(apex, left, right)) return ground;
   FixedTriangle fixed;
   fixed.apex = glm::dvec3(apex, 0);
   fixed.to_left = glm::vec3(glm::vec2(left - apex), 0);

@@ -71,7 +71,6 @@ class ClipmapTable {
   void fill(glm::ivec2 first, glm::ivec2 end);
   SeedGround make(glm::ivec2 cell, int triangle);
   bool references_moved();
-  bool barren(glm::dvec2 apex, glm::dvec2 left, glm::dvec2 right);
   bool exclude(glm::dvec2 apex, glm::vec2 to_left, glm::vec2 to_right, SeedGround& ground);
   void bound_clusters(const View& view);
   size_t place_of(glm::ivec2 cell) const;

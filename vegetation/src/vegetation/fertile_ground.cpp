@@ -113,13 +113,15 @@ void FertileGround::follow(const Layer& layer, const ColorMap& map) {
     bounds_.reset();
     return;
   }
+  texels_ = classification_map(layer, geometry_of(map)).texels;
+  corner_ = {map.min_corner.x, map.min_corner.y + map.size.y};
+  texels_per_m_ = glm::dvec2(texels_) / map.size * glm::dvec2(1, -1);
   std::vector<shared::SpeciesParams> species = make_species_params(layer);
   const bool same_species =
       species.size() == species_.size() &&
       std::memcmp(species.data(), species_.data(), species.size() * sizeof(shared::SpeciesParams)) == 0;
   if (same_species && read.bounds == bounds_) return;
   bounds_ = read.bounds;
-  texels_ = {read.width, read.height};
   species_ = std::move(species);
   references_move_ = std::any_of(species_.begin(), species_.end(), [](const shared::SpeciesParams& s) {
     return glm::vec3(s.reference) != glm::vec3(s.next);
@@ -129,9 +131,10 @@ void FertileGround::follow(const Layer& layer, const ColorMap& map) {
 
 bool FertileGround::barren(glm::dvec2 apex, glm::dvec2 left, glm::dvec2 right) {
   if (!bounds_) return false;
+  const auto place = [this](glm::dvec2 at) { return (at - corner_) * texels_per_m_; };
+  const glm::dvec2 a = place(apex), b = place(left), c = place(right);
   // The lookup reads the texels around a place, the outermost again outside of the map.
-  const glm::dvec2 low = glm::min(apex, glm::min(left, right)) - 1.0,
-                   high = glm::max(apex, glm::max(left, right)) + 1.0;
+  const glm::dvec2 low = glm::min(a, glm::min(b, c)) - 1.0, high = glm::max(a, glm::max(b, c)) + 1.0;
   const glm::dvec2 last(texels_ - 1);
   const glm::ivec2 first_tile(glm::clamp(low, glm::dvec2(0), last) / double(ColorBounds::k_tile));
   const glm::ivec2 last_tile(glm::clamp(high, glm::dvec2(0), last) / double(ColorBounds::k_tile));

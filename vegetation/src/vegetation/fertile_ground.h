@@ -31,7 +31,7 @@ class FertileGround {
  public:
   /// Keeps what is known while the map's bounds and the species are the same as before.
   void follow(const Layer& layer, const ColorMap& map);
-  /// Whether nothing can grow on a triangle, named by its corners in texels of the classification map (u, v).
+  /// Whether nothing can grow on a triangle, named by its corners in the world (x, y).
   bool barren(glm::dvec2 apex, glm::dvec2 left, glm::dvec2 right);
 
  private:
@@ -41,6 +41,7 @@ class FertileGround {
 
   std::shared_ptr<const ColorBounds> bounds_;
   glm::ivec2 texels_{0};
+  glm::dvec2 corner_{0}, texels_per_m_{1};  ///< The map's north-western corner; east and south.
   std::vector<shared::SpeciesParams> species_;
   bool references_move_ = false;
   std::vector<Verdict> verdicts_;

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
 #include "vegetation/exclusion_index.h"
 #include "vegetation/fertile_ground.h"
@@ -168,33 +167,19 @@ void follow_exclusions(const Layer& layer, const FixedTriangles& triangles, cons
   out.exclusions.assign(1, glm::vec4(0.0f));
 }
 
-/// Places on the map that classification reads, in its texels.
-struct TexelPlaces {
-  glm::dvec2 corner, texels_per_m;
-
-  TexelPlaces(const Layer& layer, const ColorMap& map)
-      : corner(map.min_corner.x, map.min_corner.y + map.size.y),
-        texels_per_m(glm::dvec2(classification_map(layer, geometry_of(map)).texels) / map.size * glm::dvec2(1, -1)) {}
-
-  glm::dvec2 operator()(glm::dvec2 at) const { return (at - corner) * texels_per_m; }
-};
-
 /// Whether the ground's colours can feed no species on triangle i.
-bool barren(FertileGround& ground, const TexelPlaces& places, const FixedTriangles& triangles, size_t i) {
+bool barren(FertileGround& ground, const FixedTriangles& triangles, size_t i) {
   const glm::dvec2 apex(triangles.apex()[i]);
-  return ground.barren(places(apex), places(apex + glm::dvec2(triangles.to_left()[i])),
-                       places(apex + glm::dvec2(triangles.to_right()[i])));
+  return ground.barren(apex, apex + glm::dvec2(triangles.to_left()[i]), apex + glm::dvec2(triangles.to_right()[i]));
 }
 
 /// Seeds of every triangle; their smallest and largest number goes to n_min and n_max. Without a map (on meshes) all
 /// ground is fertile.
 void count_seeds(const Layer& layer, const View& view, const ColorMap* map, const FixedTriangles& triangles,
                  Seeding& out) {
-  std::optional<TexelPlaces> places;
   if (map != nullptr) {
     if (!out.scratch.ground) out.scratch.ground = std::make_shared<FertileGround>();
     out.scratch.ground->follow(layer, *map);
-    places.emplace(layer, *map);
   }
   const float zoom = float(view.zoom());
   const float full = layer.law == DensityLaw::distance ? layer.density : 0.0f;
@@ -206,7 +191,7 @@ void count_seeds(const Layer& layer, const View& view, const ColorMap* map, cons
     const uint32_t submitted = limit > 0.0f ? uint32_t(std::ceil(std::min(limit, k_most_seeds))) : 0u;
     out.counts[i] = {full > 0.0f ? area[i] * full : limit, submitted, 0, 0};
     if (submitted == 0) continue;
-    if ((places && barren(*out.scratch.ground, *places, triangles, i)) ||
+    if ((map != nullptr && barren(*out.scratch.ground, triangles, i)) ||
         (!out.scratch.index->empty() && excluded(triangles, i, out))) {
       out.counts[i].submitted = 0;
       continue;
