@@ -3,6 +3,7 @@
 
 // Growth of single objects (stones, leaves, trees), tessellation control: a patch a cluster; each invocation grows one
 // seed, those that can be seen become isolines. The kind's file defines the two functions declared here. GLSL only.
+#include "common_levels.glsl"
 #include "common_grow.glsl"
 #include "common_ground.glsl"
 #include "common_shadow_bend.glsl"
@@ -82,12 +83,7 @@ void write_lines() {
   }
   object_patch = uvec2(cluster_words[0].x, 0u);
   for (int slot = 0; slot < slots.length(); ++slot) object_slots[slot] = slots[slot];
-  gl_TessLevelOuter[0] = float(lines);
-  gl_TessLevelOuter[1] = parts;
-  gl_TessLevelOuter[2] = 1.0;
-  gl_TessLevelOuter[3] = 1.0;
-  gl_TessLevelInner[0] = 1.0;
-  gl_TessLevelInner[1] = 1.0;
+  set_levels(lines, parts);
 }
 
 void main() {

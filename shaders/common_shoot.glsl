@@ -15,7 +15,7 @@
 //     Half its width at arc length s of 0..1, against the half width at the base; 0 ends it in a point.
 //   Leaf kind_leaf(SpeciesParams species, vec4 ground_and_age, int index, float s, float across, float phase)
 //     Its colour and light at arc length s, -1..1 across; ground_and_age: linear colour of the ground at the root, the
-//     plant's age; phase: the plant's own number, 0..1. meadow_leaf() below does it as grass does.
+//     plant's age; phase: the plant's own number, 0..1. grass_leaf() (common_leaf.glsl) does it as grass does.
 #include "common_leaf.glsl"
 #include "common_kinds.glsl"
 
@@ -33,10 +33,6 @@ struct Shoot {
 float next_uniform(inout uint state) {
   state = lcg_next(state);
   return uniform_float(state);
-}
-
-Leaf meadow_leaf(SpeciesParams species, vec4 ground_and_age, float s, float across, float phase) {
-  return grass_leaf(species, ground_and_age, s, across, phase);
 }
 
 // Of the packed sRGB colours in SpeciesParams: red * 65536 + green * 256 + blue, to linear.

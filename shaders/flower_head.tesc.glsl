@@ -3,6 +3,7 @@
 
 // Growth of flowers' heads, a patch a cluster: each invocation finds where one plant's stem ends and which way its head
 // looks. A head becomes an isoline, each segment of it a petal; where all heads of a patch are dots, one segment a dot.
+#include "common_levels.glsl"
 #include "common_shadow_bend.glsl"
 #include "common_worth.glsl"
 #include "common_blade.glsl"
@@ -111,10 +112,5 @@ void main() {
     ++lines;
   }
   for (int slot = 0; slot < slots.length(); ++slot) head_slots[slot] = slots[slot];
-  gl_TessLevelOuter[0] = float(lines);
-  gl_TessLevelOuter[1] = largest > k_dot_px ? head_petals(sward_layer.species[sward_species]) : 1.0;
-  gl_TessLevelOuter[2] = 1.0;
-  gl_TessLevelOuter[3] = 1.0;
-  gl_TessLevelInner[0] = 1.0;
-  gl_TessLevelInner[1] = 1.0;
+  set_levels(lines, largest > k_dot_px ? head_petals(sward_layer.species[sward_species]) : 1.0);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // Growth of grass, a patch a cluster: each invocation grows one seed; those that can be seen become isolines.
+#include "common_levels.glsl"
 #include "common_grow.glsl"
 #include "common_blade.glsl"
 #include "common_ground.glsl"
@@ -65,10 +66,5 @@ void main() {
     ++lines;
   }
   for (int slot = 0; slot < slots.length(); ++slot) blade_slots[slot] = slots[slot];
-  gl_TessLevelOuter[0] = float(lines);
-  gl_TessLevelOuter[1] = segment_count(sward_layer.species[sward_species], sward_layer.layer, nearest);
-  gl_TessLevelOuter[2] = 1.0;
-  gl_TessLevelOuter[3] = 1.0;
-  gl_TessLevelInner[0] = 1.0;
-  gl_TessLevelInner[1] = 1.0;
+  set_levels(lines, segment_count(sward_layer.species[sward_species], sward_layer.layer, nearest));
 }

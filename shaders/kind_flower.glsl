@@ -39,5 +39,5 @@ Leaf kind_leaf(SpeciesParams species, vec4 ground_and_age, int index, float s, f
   bool ground_green = species.own_d.y < 0.0;
   if (!ground_green) own.rgb = unpack_color(species.own_d.y) * (1.0 + species.age_tint.w) / 2.7;
   // Leaves lie low: they have the light of their height, not of their length.
-  return meadow_leaf(species, own, index == 0 ? s : 0.35 * s, across, phase);
+  return grass_leaf(species, own, index == 0 ? s : 0.35 * s, across, phase);
 }

@@ -35,5 +35,5 @@ Shoot kind_shoot(SpeciesParams species, PlantTraits traits, int index) {
 float kind_outline(SpeciesParams species, int index, float s) { return 1.0 - s * s * (0.55 + 0.45 * s); }
 
 Leaf kind_leaf(SpeciesParams species, vec4 ground_and_age, int index, float s, float across, float phase) {
-  return meadow_leaf(species, ground_and_age, s, across, fract(phase + 0.381966 * float(index)));
+  return grass_leaf(species, ground_and_age, s, across, fract(phase + 0.381966 * float(index)));
 }

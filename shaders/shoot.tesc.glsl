@@ -3,6 +3,7 @@
 
 // Growth of kinds made of shoots, a patch a cluster: each invocation grows one seed, the shoots that are shown become
 // isolines. A patch has at most 64 of them; further instances grow the further shoots of each plant.
+#include "common_levels.glsl"
 #include "common_shadow_bend.glsl"
 #include "common_worth.glsl"
 #include "common_blade.glsl"
@@ -100,10 +101,5 @@ void main() {
   }
   for (int slot = 0; slot < 4; ++slot)
     shoot_slots[slot] = uvec4(slots[4 * slot], slots[4 * slot + 1], slots[4 * slot + 2], slots[4 * slot + 3]);
-  gl_TessLevelOuter[0] = float(lines);
-  gl_TessLevelOuter[1] = segment_count(sward_layer.species[sward_species], sward_layer.layer, nearest);
-  gl_TessLevelOuter[2] = 1.0;
-  gl_TessLevelOuter[3] = 1.0;
-  gl_TessLevelInner[0] = 1.0;
-  gl_TessLevelInner[1] = 1.0;
+  set_levels(lines, segment_count(sward_layer.species[sward_species], sward_layer.layer, nearest));
 }

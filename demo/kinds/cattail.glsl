@@ -34,7 +34,7 @@ float kind_outline(SpeciesParams species, int index, float s) {
 }
 
 Leaf kind_leaf(SpeciesParams species, vec4 ground_and_age, int index, float s, float across, float phase) {
-  Leaf leaf = meadow_leaf(species, ground_and_age, s, across, phase);
+  Leaf leaf = grass_leaf(species, ground_and_age, s, across, phase);
   if (index == 0 && in_head(species, s)) leaf.albedo = vec3(0.06, 0.030, 0.013) * (0.85 + 0.3 * phase);
   return leaf;
 }
