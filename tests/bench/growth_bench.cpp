@@ -172,6 +172,7 @@ struct Lists {
   uint32_t size = 0;
   gl::Buffer blades, draws, counts;
   std::array<gl::Buffer, k_lists> indices;
+  std::array<gl::VertexArray, k_lists> arrays;  // no attributes: the strips' indices alone
 
   void reserve(uint32_t needed, int longest) {
     if (needed <= size) return;
@@ -182,6 +183,8 @@ struct Lists {
     for (int list = 0; list < k_lists && segments_of(list) <= longest; ++list) {
       const std::vector<uint32_t> strip = strip_indices(segments_of(list), size);
       indices[size_t(list)] = make_buffer(strip.size() * sizeof(uint32_t), strip.data(), 0);
+      arrays[size_t(list)] = gl::create_vertex_array();
+      glVertexArrayElementBuffer(arrays[size_t(list)].id(), indices[size_t(list)].id());
     }
   }
 };
@@ -189,11 +192,7 @@ struct Lists {
 class Ways {
  public:
   Ways(Prepared& prepared, const gl::Bindings& bindings)
-      : p_(prepared),
-        bindings_(bindings),
-        programs_(build(prepared.layer, bindings)),
-        array_(make_cluster_array()),
-        empty_(gl::create_vertex_array()) {
+      : p_(prepared), bindings_(bindings), programs_(build(prepared.layer, bindings)), array_(make_cluster_array()) {
     for (const Species& species : p_.layer.species) longest_ = std::max(longest_, species.max_segments | 1);
     uint32_t most = 0;
     for (const uint32_t clusters : p_.fertile) most = std::max(most, clusters);
@@ -218,7 +217,7 @@ class Ways {
       if (clusters == 0) return;
       lists_.reserve(clusters * uint32_t(p_.layer.cluster_size), longest_);
       if (parts & 1) run_expansion(place, clusters, counted);
-      if (parts & 2) pull(place);
+      if (parts & 2) pull();
     });
   }
 
@@ -268,12 +267,12 @@ class Ways {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   }
 
-  void pull(const StreamPlace& place) {
-    use(programs_.pulled, place);
-    glBindVertexArray(empty_.id());
+  void pull() {
+    // Without the species' index: this program has no such uniform, and its location may be a sampler's.
+    glUseProgram(programs_.pulled.id());
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, lists_.draws.id());
     for (int list = 0; list < k_lists && segments_of(list) <= longest_; ++list) {
-      glVertexArrayElementBuffer(empty_.id(), lists_.indices[size_t(list)].id());
+      glBindVertexArray(lists_.arrays[size_t(list)].id());
       for (int shadow = 0; shadow < (p_.layer.shadows ? 2 : 1); ++shadow) {
         glProgramUniform4i(programs_.pulled.id(), 1, segments_of(list), list * GLint(lists_.size), shadow, 0);
         glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
@@ -286,7 +285,7 @@ class Ways {
   Prepared& p_;
   const gl::Bindings& bindings_;
   Programs programs_;
-  gl::VertexArray array_, empty_;
+  gl::VertexArray array_;
   Lists lists_;
   int longest_ = 1;
 };

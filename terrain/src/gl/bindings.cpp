@@ -30,6 +30,12 @@ std::vector<Define> binding_defines(const Bindings& bindings) {
       {"SWARD_BINDING_PLACEMENT", std::to_string(bindings.placement)},
       {"SWARD_BINDING_EXCLUSIONS", std::to_string(bindings.exclusions)},
       {"SWARD_BINDING_MATERIALS", std::to_string(bindings.materials)},
+      {"SWARD_BINDING_WIND", std::to_string(bindings.wind)},
+      {"SWARD_BINDING_WIND_MAPS", std::to_string(bindings.wind_maps)},
+      {"SWARD_BINDING_WIND_GRID", std::to_string(bindings.wind_grid)},
+      {"SWARD_BINDING_WIND_PAINTED", std::to_string(bindings.wind_painted)},
+      {"SWARD_BINDING_DISTURBANCE", std::to_string(bindings.disturbance)},
+      {"SWARD_BINDING_DISTURBANCE_MAP", std::to_string(bindings.disturbance_map)},
       {"SWARD_BINDING_DETAIL", std::to_string(bindings.detail)},
       {"SWARD_BINDING_DETAIL_SLOPE", std::to_string(bindings.detail_slope)},
   };

@@ -13,11 +13,13 @@ namespace sward::gl {
 /// anything; the numbers reach the shaders as defines.
 struct Bindings {
   // Uniform buffers.
-  GLuint frame = 0;      ///< SwardFrame
-  GLuint species = 1;    ///< SwardSpecies
-  GLuint clipmap = 2;    ///< SwardClipmap
-  GLuint seeding = 3;    ///< SwardSeeding
-  GLuint materials = 5;  ///< SwardMaterials
+  GLuint frame = 0;        ///< SwardFrame
+  GLuint species = 1;      ///< SwardSpecies
+  GLuint clipmap = 2;      ///< SwardClipmap
+  GLuint seeding = 3;      ///< SwardSeeding
+  GLuint materials = 5;    ///< SwardMaterials
+  GLuint wind = 6;         ///< SwardWind
+  GLuint disturbance = 7;  ///< SwardDisturbance
   // Shader storage buffers.
   GLuint seed_ground = 0;   ///< What is static of candidate triangles
   GLuint seed_counts = 1;   ///< Seeds of each
@@ -39,6 +41,10 @@ struct Bindings {
   GLuint detail_slope = 13;     ///< RG8_SNORM array: their slopes
   GLuint placement = 14;        ///< RGBA32UI buffer texture: masks
   GLuint exclusions = 15;       ///< RGBA32F buffer texture: excluded shapes near triangles
+  GLuint wind_maps = 7;         ///< RGBA8 array: gusts and noise that the wind carries along
+  GLuint wind_grid = 8;         ///< RG16F: what moves near the viewer adds to the wind, m/s
+  GLuint wind_painted = 16;     ///< RG16F: factor on the wind over the terrain
+  GLuint disturbance_map = 17;  ///< RGBA8 array: what has touched the plants around the viewer
 };
 
 struct Define;
