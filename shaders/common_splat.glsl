@@ -25,7 +25,7 @@ layout(binding = SWARD_BINDING_DETAIL_SLOPE) uniform sampler2DArray sward_detail
 const float k_shade_unit = 255.0 / 128.0;  // DetailTexture::k_unit
 const float k_middle_step = 6.7;           // the middle scale's tile against the finest
 const float k_broad_step = 43.0;
-const float k_least_share = 0.01;          // materials below it are not read
+const float k_least_share = 0.08;          // is taken from every material's share: those that are left with none are not read
 
 // The place, and what is the same for all materials.
 struct SplatPlace {
@@ -202,14 +202,15 @@ vec3 along_surface(vec2 slope, int axis) {
 
 // Three scores of equation 17 at least, sharpened by height: what lies higher hides what lies lower.
 Splat splat_materials(BestMaterials best, SplatPlace place) {
-  vec3 shares = material_shares_of(best);
+  vec3 shares = max(material_shares_of(best) - k_least_share, 0.0);
+  shares /= max(shares.x + shares.y + shares.z, 1.0e-4);
   ivec3 which = ivec3(best.first, best.second, best.third);
   Splat splat;
   splat.shade = vec3(0.0);
   splat.gradient = vec3(0.0);
   float total = 0.0;
   for (int i = 0; i < 3; ++i) {
-    if (shares[i] < k_least_share) continue;
+    if (shares[i] <= 0.0) continue;
     MaterialParams m = sward_materials.material[which[i]];
     for (int axis = 0; axis < 3; ++axis) {
       if (place.planes[axis] <= 0.0) continue;

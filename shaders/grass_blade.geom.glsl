@@ -34,13 +34,18 @@ layout(location = 5) flat out vec4 strip_self;    // base map coordinates below 
                                                   // -1 - shoot
 layout(location = 6) out vec4 strip_light;        // canopy_light: sky, sun; leaf_through; cosine for leaf_streak
 
-layout(location = 7) out vec3 strip_lit;          // the vertex's light in the eye, linear, without detail: of the shadow,
-                                                  // and of the leaf where SWARD_LIT_AT_VERTICES
+layout(location = 7) out vec3 strip_lit;          // the vertex's colour as the target takes it, without detail: of the
+                                                  // shadow, and of the leaf where SWARD_LIT_AT_VERTICES
 
 layout(location = 0) uniform int sward_species;
 
 // Thinner than this on screen, pixels, a strip is drawn this wide with less coverage. Many samples show thinner ones.
 const float k_least_half_width_px = 0.6;
+
+// Pixels of half width up to which a strip is flat, and one light does for both edges; from which on it is as round as
+// it is.
+const float k_flat_px = 0.75;
+const float k_round_px = 2.0;
 
 float least_half_width(float distance) {
   float samples = max(frame.eye_noise.w, 1.0);
@@ -66,57 +71,75 @@ struct Plant {
   float far;         // 0: blades can be told apart .. 1: they cannot, and have the ground's normal
 };
 
+// What a vertex hands to the fragments about its light.
+struct VertexLight {
+  vec3 normal;
+  float gloss;
+  vec4 strip;  // strip_light
+  vec3 lit;    // strip_lit
+};
+
 // Of the shadow on ground of the plant's own colour.
-vec3 lit_shadow(int i, Plant plant, vec3 position) {
-  return shade_ground(line_color[i].rgb, plant.plane, position, shadow_light(plant.shadow));
+VertexLight shadow_vertex(Plant plant) {
+  vec3 surface = to_world(plant.plane);
+  vec3 lit = shade_ground(line_color[0].rgb, surface, to_world(line_root[0]), shadow_light(plant.shadow));
+  return VertexLight(surface, 0.0, vec4(0.0), encode_output(lit));
 }
 
-vec3 lit_leaf(int i, Plant plant, vec3 position, float across, StripLight light, vec4 strip) {
+vec3 lit_leaf(int i, vec3 surface, vec3 position, float across, StripLight light, vec4 strip) {
   SpeciesParams species = sward_layer.species[sward_species];
   Leaf leaf = kind_leaf(species, line_color[i], int(line_fade[i].w + 0.5), line_point[i].w, across, line_map[i].w);
   vec3 lit = strip_leaf(species, leaf, strip, light.gloss, light.normal);
-  return melt_into_ground(lit, line_color[i].rgb, vec4(to_world(plant.plane), line_fade[i].x), position);
+  return encode_output(melt_into_ground(lit, line_color[i].rgb, vec4(surface, line_fade[i].x), position));
 }
 
-void emit(int i, Plant plant, Section s, float across, vec3 normal) {
+VertexLight leaf_vertex(int i, Plant plant, Section s, float across, vec3 normal) {
+  vec3 position = to_world(s.middle + s.side * across), surface = to_world(plant.plane);
+  StripLight light = strip_light_at(sward_layer.species[sward_species].optics, to_world(normal),
+                                    to_world(line_tangent[i].xyz), position, surface, plant.far);
+  vec4 strip = vec4(s.canopy, light.through, light.along);
+  vec3 lit = SWARD_LIT_AT_VERTICES == 1 ? lit_leaf(i, surface, position, across, light, strip) : vec3(0.0);
+  return VertexLight(light.normal, light.gloss, strip, lit);
+}
+
+void emit(int i, Plant plant, Section s, float across, VertexLight light) {
   vec3 position = to_world(s.middle + s.side * across);
   gl_Position = frame.clip_from_relative * vec4(position, 1.0);
   strip_point = vec4(position, line_point[i].w);
-  strip_normal = vec4(to_world(normal), across);
-  strip_cover = vec2(s.cover, 0.0);
-  strip_light = vec4(0.0);
-  if (plant.shadow >= 0.0) strip_lit = lit_shadow(i, plant, position);
-  else {
-    StripLight light = strip_light_at(sward_layer.species[sward_species].optics, to_world(normal),
-                                      to_world(line_tangent[i].xyz), position, to_world(plant.plane), plant.far);
-    strip_normal.xyz = light.normal;
-    strip_cover.y = light.gloss;
-    strip_light = vec4(s.canopy, light.through, light.along);
-    strip_lit = SWARD_LIT_AT_VERTICES == 1 ? lit_leaf(i, plant, position, across, light, strip_light) : vec3(0.0);
-  }
+  strip_normal = vec4(light.normal, across);
+  strip_cover = vec2(s.cover, light.gloss);
+  strip_light = light.strip;
+  strip_lit = light.lit;
   strip_color = line_color[i];
   strip_ground = vec4(to_world(plant.plane), line_fade[i].x);
   strip_self = vec4(line_map[i].xyw, plant.shadow);
   EmitVertex();
 }
 
+bool pointed(int i) { return line_tangent[i].w <= 0.0; }
+
+void emit_end(int i, Plant plant, Section s, VertexLight light) {
+  emit(i, plant, s, pointed(i) ? 0.0 : -1.0, light);
+  if (!pointed(i)) emit(i, plant, s, 1.0, light);
+}
+
 // Normals of the two edges lean outwards, so that the strip shades like a round or folded leaf.
-void emit_end(int i, Plant plant, Section s, float roundness) {
-  bool pointed = line_tangent[i].w <= 0.0;
-  if (pointed) {
-    emit(i, plant, s, 0.0, s.normal);
+void emit_leaf_end(int i, Plant plant, Section s, float roundness) {
+  float half_px = length(s.side) * frame.focal.y / max(length(s.middle), 1.0e-3);
+  roundness *= smoothstep(k_flat_px, k_round_px, half_px);
+  if (pointed(i) || roundness <= 0.0) {
+    emit_end(i, plant, s, leaf_vertex(i, plant, s, 0.0, s.normal));
     return;
   }
   vec3 outwards = normalize(s.side) * roundness;
-  emit(i, plant, s, -1.0, s.normal - outwards);
-  emit(i, plant, s, 1.0, s.normal + outwards);
+  emit(i, plant, s, -1.0, leaf_vertex(i, plant, s, -1.0, s.normal - outwards));
+  emit(i, plant, s, 1.0, leaf_vertex(i, plant, s, 1.0, s.normal + outwards));
 }
 
-void emit_strip(Plant plant, Section first, Section second, float roundness) {
+// The strip between two sections must not cross itself.
+Section turned_with(Section first, Section second) {
   if (dot(first.side, second.side) < 0.0) second.side = -second.side;
-  emit_end(0, plant, first, roundness);
-  emit_end(1, plant, second, roundness);
-  EndPrimitive();
+  return second;
 }
 
 Section blade_section(int i, Plant plant) {
@@ -146,7 +169,10 @@ void emit_blade(Plant plant) {
     sections[i].canopy = field_light(species, canopy_light(canopy, height), plant.far);
     sections[i].canopy.y *= body_light(surface);
   }
-  emit_strip(plant, sections[0], sections[1], 0.5 + 0.6 * (plant.edge_share - 0.35));
+  float roundness = 0.5 + 0.6 * (plant.edge_share - 0.35);
+  emit_leaf_end(0, plant, sections[0], roundness);
+  emit_leaf_end(1, plant, turned_with(sections[0], sections[1]), roundness);
+  EndPrimitive();
 }
 
 void emit_shadow(Plant plant) {
@@ -168,7 +194,10 @@ void emit_shadow(Plant plant) {
     sections[i] = Section(lifted(ground, ends[i]), across * (drawn * (1.0 - ground.lift)), thrown / drawn,
                           plant.plane, vec2(0.0));
   }
-  emit_strip(plant, sections[0], sections[1], 0.0);
+  VertexLight light = shadow_vertex(plant);
+  emit_end(0, plant, sections[0], light);
+  emit_end(1, plant, turned_with(sections[0], sections[1]), light);
+  EndPrimitive();
 }
 
 void main() {

@@ -291,14 +291,15 @@ Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighti
 
   self.sun_azimuth = lighting.sun_azimuth;
   self.frame.upload(view, lighting, time_s, samples);
+  // Plants first: ground that they hide is not shaded.
+  if (self.vegetation_on) {
+    if (auto drawn = self.draw_vegetation(view, framebuffer, stats); !drawn) return tl::unexpected(drawn.error());
+  }
   self.terrain_timer.begin();
   self.draw_terrain(view, stats);
   for (MeshRenderer& body : self.programs.meshes) body.draw(view, self.frame);
   self.terrain_timer.end();
   if (self.sky_on) self.programs.sky.draw(self.frame);
-  if (self.vegetation_on) {
-    if (auto drawn = self.draw_vegetation(view, framebuffer, stats); !drawn) return tl::unexpected(drawn.error());
-  }
   self.gather(wait_for_stats, stats);
   if (!self.clipmap) stats.bound_px = self.cpu.mesh().bound_px();
   return stats;
