@@ -120,8 +120,8 @@ std::vector<Candidate> all_candidates() {
   return candidates;
 }
 
-/// A context on an initialised display, current on this thread.
-Expected<EGLContext> make_context(EGLDisplay display, bool debug) {
+/// A context on an initialised display, current nowhere. `shared`: with whose objects, or EGL_NO_CONTEXT.
+Expected<EGLContext> make_context(EGLDisplay display, EGLContext shared, bool debug) {
   const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
   if (!listed(extensions, "EGL_KHR_surfaceless_context")) return fail("no EGL_KHR_surfaceless_context");
   if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) return fail("no desktop OpenGL (" + egl_error() + ")");
@@ -142,8 +142,16 @@ Expected<EGLContext> make_context(EGLDisplay display, bool debug) {
                                EGL_CONTEXT_OPENGL_DEBUG,
                                debug ? EGL_TRUE : EGL_FALSE,
                                EGL_NONE};
-  const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
+  const EGLContext context = eglCreateContext(display, config, shared, attributes);
   if (context == EGL_NO_CONTEXT) return fail("no OpenGL 4.5 core context (" + egl_error() + ")");
+  return context;
+}
+
+/// The same, current on this thread.
+Expected<EGLContext> make_current_context(EGLDisplay display, bool debug) {
+  Expected<EGLContext> made = make_context(display, EGL_NO_CONTEXT, debug);
+  if (!made) return made;
+  const EGLContext context = *made;
   if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_TRUE) return context;
   Expected<EGLContext> failure = fail("the context cannot be made current (" + egl_error() + ")");
   eglDestroyContext(display, context);
@@ -226,7 +234,7 @@ Expected<EglContext> EglContext::create(bool debug) {
       reasons += "; " + candidate.name + ": cannot be initialised (" + egl_error() + ")";
       continue;
     }
-    Expected<EGLContext> context = make_context(candidate.display, debug);
+    Expected<EGLContext> context = make_current_context(candidate.display, debug);
     if (!context) {
       reasons += "; " + candidate.name + ": " + context.error().message;
       release(candidate.display);
@@ -241,6 +249,28 @@ Expected<EglContext> EglContext::create(bool debug) {
   if (reasons.empty()) reasons = "; EGL offers neither EGL_EXT_platform_device nor EGL_MESA_platform_surfaceless";
   return fail("no OpenGL 4.5 core context without a display" + reasons +
               "; install a GL driver with EGL (Debian: libgl1-mesa-dri, libegl1)");
+}
+
+Expected<EglContext> EglContext::create_shared(const EglContext& other) {
+  auto impl = std::make_unique<Impl>();
+  if (!acquire(other.impl_->display)) return fail("the other context's display is gone (" + egl_error() + ")");
+  impl->display = other.impl_->display;
+  Expected<EGLContext> context = make_context(impl->display, other.impl_->context, false);
+  if (!context) {
+    release(impl->display);
+    return tl::unexpected(context.error());
+  }
+  impl->context = *context;
+  return EglContext(std::move(impl));
+}
+
+bool EglContext::make_current() {
+  return eglBindAPI(EGL_OPENGL_API) == EGL_TRUE &&
+         eglMakeCurrent(impl_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, impl_->context) == EGL_TRUE;
+}
+
+void EglContext::release_current() {
+  eglMakeCurrent(impl_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
 std::vector<std::string> EglContext::take_messages() {

@@ -15,9 +15,16 @@ class EglContext {
   /// Makes the context current on the calling thread. `debug` asks for a debug context and records every message.
   /// Errors say what EGL or the driver lacks.
   static Expected<EglContext> create(bool debug);
+  /// A further one that shares objects with `other`, for a thread that prepares what another draws. Current nowhere.
+  static Expected<EglContext> create_shared(const EglContext& other);
   EglContext(EglContext&&) noexcept;
   EglContext& operator=(EglContext&&) noexcept;
   ~EglContext();
+
+  /// On the calling thread; false where EGL refuses. Current on one thread at a time.
+  bool make_current();
+  /// Nothing is current on the calling thread afterwards.
+  void release_current();
 
   /// Debug messages above notification severity since the last call ("severity type id: text").
   std::vector<std::string> take_messages();

@@ -250,9 +250,35 @@ SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;
 SceneRenderer& SceneRenderer::operator=(SceneRenderer&&) noexcept = default;
 SceneRenderer::~SceneRenderer() = default;
 
+Expected<gl::GroundTextures> SceneRenderer::make_ground(const Scene& scene, const SceneTerrain& terrain) {
+  auto ground = terrain.make_textures();
+  if (!ground) return ground;
+  const auto materials = ground_materials(scene);
+  if (!materials) return tl::unexpected(materials.error());
+  if (auto set = ground->set_materials(*materials); !set) return tl::unexpected(set.error());
+  return ground;
+}
+
+Expected<void> SceneRenderer::try_programs(const Scene& scene, const SceneTerrain& terrain,
+                                           const gl::ShaderLibrary& shaders, const gl::Bindings& bindings) {
+  auto library = with_kinds(shaders, scene.layers, scene.directory);
+  if (!library) return tl::unexpected(library.error());
+  auto programs = build_programs(scene.layers, scene.source, terrain, *library, bindings);
+  if (!programs) return tl::unexpected(programs.error());
+  return {};
+}
+
 Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTerrain& terrain,
                                               const gl::ShaderLibrary& shaders, const gl::Bindings& bindings) {
   if (auto context = gl::require_context(); !context) return tl::unexpected(context.error());
+  auto ground = make_ground(scene, terrain);
+  if (!ground) return tl::unexpected(ground.error());
+  return create(scene, terrain, std::move(*ground), shaders, bindings);
+}
+
+Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTerrain& terrain,
+                                              gl::GroundTextures ground, const gl::ShaderLibrary& shaders,
+                                              const gl::Bindings& bindings) {
   RoamOptions options;
   options.max_triangles = scene.max_triangles;
   options.target_px = scene.target_px;
@@ -261,11 +287,6 @@ Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTer
   if (auto excluded = cpu->exclude(scene.exclusions); !excluded) return tl::unexpected(excluded.error());
   auto frame = gl::Frame::create(bindings);
   if (!frame) return tl::unexpected(frame.error());
-  auto ground = terrain.make_textures();
-  if (!ground) return tl::unexpected(ground.error());
-  const auto materials = ground_materials(scene);
-  if (!materials) return tl::unexpected(materials.error());
-  if (auto set = ground->set_materials(*materials); !set) return tl::unexpected(set.error());
   auto library = with_kinds(shaders, scene.layers, scene.directory);
   if (!library) return tl::unexpected(library.error());
   auto programs = build_programs(scene.layers, scene.source, terrain, *library, bindings);
@@ -278,7 +299,7 @@ Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTer
   }
   const bool timed = gpu_can_time();
   return SceneRenderer(std::unique_ptr<Impl>(new Impl{
-      terrain, scene.directory, std::move(*library), bindings, scene.layers, std::move(*frame), std::move(*ground),
+      terrain, scene.directory, std::move(*library), bindings, scene.layers, std::move(*frame), std::move(ground),
       std::move(*cpu), std::move(clipmap), std::move(*programs), GpuTimer(timed), GpuTimer(timed), GpuTimer(timed)}));
 }
 

@@ -52,6 +52,14 @@ class SceneRenderer {
   /// `terrain` must outlive the renderer.
   static Expected<SceneRenderer> create(const Scene& scene, const SceneTerrain& terrain,
                                         const gl::ShaderLibrary& shaders, const gl::Bindings& bindings = {});
+  /// The same on ground that another context, which shares its objects with this one, has uploaded by make_ground().
+  static Expected<SceneRenderer> create(const Scene& scene, const SceneTerrain& terrain, gl::GroundTextures ground,
+                                        const gl::ShaderLibrary& shaders, const gl::Bindings& bindings = {});
+  /// The ground's textures, materials included.
+  static Expected<gl::GroundTextures> make_ground(const Scene& scene, const SceneTerrain& terrain);
+  /// Builds the programs that create() will build, keeping none: for its errors, and for the library's binaries.
+  static Expected<void> try_programs(const Scene& scene, const SceneTerrain& terrain, const gl::ShaderLibrary& shaders,
+                                     const gl::Bindings& bindings = {});
   SceneRenderer(SceneRenderer&&) noexcept;
   SceneRenderer& operator=(SceneRenderer&&) noexcept;
   ~SceneRenderer();

@@ -9,11 +9,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 
 #include "sward/arguments.h"
 #include "sward/commands/commands.h"
 #include "sward/scene_options.h"
+#include "sward/viewer/file_watch.h"
 #include "sward/viewer/panel.h"
 #include "sward/viewer/window.h"
 
@@ -28,6 +30,7 @@ struct ViewOptions {
   SceneOptions scene;
   std::string size = "1280x720", samples = "4";
   std::optional<int> frames;
+  bool watch = false;
 };
 
 WalkCamera start_camera(const Scene& scene, const host::SceneTerrain& terrain) {
@@ -78,15 +81,6 @@ void apply_panel(PanelState& state, host::SceneRenderer& renderer) {
   }
 }
 
-void reload(const std::string& folder, host::SceneRenderer& renderer, PanelState& state) {
-  if (folder.empty()) {
-    state.message = "start with --shaders DIR to reload shaders from that folder";
-    return;
-  }
-  auto done = renderer.reload(gl::ShaderLibrary(folder));
-  state.message = done ? "shaders reloaded" : done.error().message;
-}
-
 gl::Lighting panel_lighting(const PanelState& state) {
   gl::Lighting lighting =
       gl::Lighting::clear_day(glm::radians(state.sun_azimuth_degrees), glm::radians(state.sun_elevation_degrees));
@@ -106,10 +100,80 @@ void begin_picture(glm::ivec2 size) {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-Expected<void> run_window(Window& window, const ViewOptions& options, const Scene& scene,
-                          const host::SceneTerrain& terrain, host::SceneRenderer& renderer) {
-  WalkCamera camera = start_camera(scene, terrain);
-  PanelState state = start_panel(scene);
+// What is on the screen. The renderer goes before the ground that it draws.
+struct Shown {
+  Scene scene;
+  std::unique_ptr<host::SceneTerrain> terrain;
+  std::optional<host::SceneRenderer> renderer;
+  PanelState panel;
+};
+
+std::vector<std::string> watched_files(const ViewOptions& options) {
+  if (!options.watch) return {};
+  return {options.scene.scene, options.scene.shaders};
+}
+
+Expected<host::SceneSource> read_source(const SceneOptions& options) {
+  auto scene = make_scene(options);
+  if (!scene) return tl::unexpected(scene.error());
+  auto terrain = make_terrain(*scene, options);
+  if (!terrain) return tl::unexpected(terrain.error());
+  return host::SceneSource{std::move(*scene), std::move(*terrain)};
+}
+
+// Scene and shaders as their files are now, made ready beside the drawing. What is wrong with them is told, and the
+// picture stays.
+class Reloader {
+ public:
+  Reloader(const ViewOptions& options, host::SceneLoader::Context context)
+      : options_(options), loader_(std::move(context)), watch_(watched_files(options)) {}
+
+  // Once a frame; `asked`: by a key.
+  void follow(bool asked, Shown& shown) {
+    wanted_ = wanted_ || asked || watch_.changed();
+    if (wanted_ && !loader_.busy()) start(shown);
+    if (auto loaded = loader_.take()) finish(std::move(*loaded), shown);
+  }
+
+ private:
+  void tell(const std::string& text, Shown& shown) {
+    shown.panel.message = text;
+    std::fprintf(stderr, "sward: %s\n", text.c_str());
+  }
+
+  void start(Shown& shown) {
+    wanted_ = false;
+    shown.panel.message = "reloading";
+    begun_ = Clock::now();
+    loader_.start([scene = options_.scene] { return read_source(scene); }, gl::ShaderLibrary(options_.scene.shaders));
+  }
+
+  void finish(Expected<host::LoadedScene> loaded, Shown& shown) {
+    if (!loaded) return tell("not reloaded: " + loaded.error().message, shown);
+    const Clock::time_point taken = Clock::now();
+    auto renderer = host::SceneRenderer::create(loaded->source.scene, *loaded->source.terrain,
+                                                std::move(loaded->ground), loaded->shaders);
+    if (!renderer) return tell("not reloaded: " + renderer.error().message, shown);
+    shown.renderer = std::move(*renderer);
+    shown.terrain = std::move(loaded->source.terrain);
+    shown.scene = std::move(loaded->source.scene);
+    shown.panel = start_panel(shown.scene);
+    const auto ms = [](Clock::time_point from, Clock::time_point to) {
+      return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(to - from).count()) + " ms";
+    };
+    tell("reloaded: " + ms(begun_, taken) + " beside the drawing, " + ms(taken, Clock::now()) + " between two frames",
+         shown);
+  }
+
+  ViewOptions options_;
+  host::SceneLoader loader_;
+  FileWatch watch_;
+  bool wanted_ = false;
+  Clock::time_point begun_;
+};
+
+Expected<void> run_window(Window& window, const ViewOptions& options, Reloader& reloader, Shown& shown) {
+  WalkCamera camera = start_camera(shown.scene, *shown.terrain);
   host::SceneFrameStats stats;
   const Clock::time_point start = Clock::now();
   Clock::time_point last = start;
@@ -118,18 +182,18 @@ Expected<void> run_window(Window& window, const ViewOptions& options, const Scen
     const double seconds = std::chrono::duration<double>(now - last).count();
     last = now;
     window.begin_frame();
-    if (window.pressed_once(GLFW_KEY_F5)) reload(options.scene.shaders, renderer, state);
+    reloader.follow(window.pressed_once(GLFW_KEY_F5), shown);
     if (window.pressed_once(GLFW_KEY_F) && !ImGui::GetIO().WantCaptureKeyboard) camera.walking = !camera.walking;
-    camera.move(window.camera_input(), std::min(seconds, 0.1), terrain.surface());
-    draw_panel(state, camera, stats, seconds * 1000);
-    apply_panel(state, renderer);
+    camera.move(window.camera_input(), std::min(seconds, 0.1), shown.terrain->surface());
+    draw_panel(shown.panel, camera, stats, seconds * 1000);
+    apply_panel(shown.panel, *shown.renderer);
 
     const glm::ivec2 size = window.framebuffer_size();
     if (size.x > 0 && size.y > 0) {
       begin_picture(size);
       const double time_s = std::chrono::duration<double>(now - start).count();
-      auto drawn = renderer.draw(camera.view(size, terrain.surface()), panel_lighting(state), time_s, 0,
-                                 window.samples(), false);
+      auto drawn = shown.renderer->draw(camera.view(size, shown.terrain->surface()), panel_lighting(shown.panel),
+                                        time_s, 0, window.samples(), false);
       if (!drawn) return tl::unexpected(drawn.error());
       stats = *drawn;
     }
@@ -153,11 +217,16 @@ Expected<void> view(const ViewOptions& options) {
   glGetIntegerv(GL_MAX_SAMPLES, &most);
   if (*samples > most)
     return fail("--samples " + std::to_string(*samples) + ": this device has at most " + std::to_string(most));
+  auto context = window->make_loader_context();
+  if (!context) return tl::unexpected(context.error());
   auto terrain = make_terrain(*scene, options.scene);
   if (!terrain) return tl::unexpected(terrain.error());
   auto renderer = host::SceneRenderer::create(*scene, **terrain, *shaders);
   if (!renderer) return tl::unexpected(renderer.error());
-  return run_window(*window, options, *scene, **terrain, *renderer);
+  PanelState panel = start_panel(*scene);
+  Shown shown{std::move(*scene), std::move(*terrain), std::move(*renderer), std::move(panel)};
+  Reloader reloader(options, std::move(*context));
+  return run_window(*window, options, reloader, shown);
 }
 
 }  // namespace
@@ -179,6 +248,7 @@ Command add_view(CLI::App& parent) {
       ->type_name("N|max")
       ->check(as_check(parse_samples))
       ->capture_default_str();
+  app->add_flag("--watch", options->watch, "Reload when the scene's file or one in --shaders is written, as F5 does");
   app->add_option("--frames", options->frames, "Close after so many frames")->type_name("N");
   return {app, [options] { return view(*options); }};
 }

@@ -53,8 +53,22 @@ Expected<Window> Window::open(const std::string& title, glm::ivec2 size, int sam
   return window;
 }
 
+Expected<host::SceneLoader::Context> Window::make_loader_context() {
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  glfwWindowHint(GLFW_SAMPLES, 0);
+  loader_window_ = glfwCreateWindow(16, 16, "sward loader", nullptr, window_);
+  if (loader_window_ == nullptr) return fail("no second OpenGL context for loading: " + glfw_reason());
+  GLFWwindow* const window = loader_window_;
+  return host::SceneLoader::Context{[window] {
+                                      glfwMakeContextCurrent(window);
+                                      return glfwGetCurrentContext() == window;
+                                    },
+                                    [] { glfwMakeContextCurrent(nullptr); }};
+}
+
 Window::Window(Window&& other) noexcept
     : window_(std::exchange(other.window_, nullptr)),
+      loader_window_(std::exchange(other.loader_window_, nullptr)),
       samples_(other.samples_),
       cursor_(other.cursor_),
       looking_(other.looking_),
@@ -65,6 +79,7 @@ Window::~Window() {
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
+  if (loader_window_ != nullptr) glfwDestroyWindow(loader_window_);
   glfwDestroyWindow(window_);
   glfwTerminate();
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host/scene_loader.h"
 #include "sward/viewer/camera.h"
 
 struct GLFWwindow;
@@ -21,6 +22,10 @@ class Window {
   Window(Window&&) noexcept;
   Window& operator=(Window&&) = delete;
   ~Window();
+
+  /// A context that shares objects with the window's, current nowhere, for a thread that prepares what is drawn here.
+  /// Call once, on this thread.
+  Expected<host::SceneLoader::Context> make_loader_context();
 
   bool closing() const;
   /// Takes events and begins an ImGui frame.
@@ -36,6 +41,7 @@ class Window {
  private:
   Window() = default;
   GLFWwindow* window_ = nullptr;
+  GLFWwindow* loader_window_ = nullptr;  ///< Never shown: GLFW has no contexts without windows.
   int samples_ = 1;
   glm::dvec2 cursor_{0};
   bool looking_ = false;

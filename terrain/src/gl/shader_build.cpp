@@ -4,6 +4,7 @@
 // Compiling and linking, and turning the drivers' logs into messages that name files.
 #include <sward/gl/shader_library.h>
 
+#include <sward/gl/program_binaries.h>
 #include <algorithm>
 #include <array>
 
@@ -66,24 +67,26 @@ Expected<Shader> compile(GLenum stage, const ProgramDesc& desc, const std::strin
               name_places(shader_log(plain.id()), map));
 }
 
-}  // namespace
+struct Stage {
+  GLenum kind;
+  const std::string* file;
+  ResolvedSource source;
+};
 
-Expected<Program> ShaderLibrary::build(const ProgramDesc& desc) const {
-  if (Expected<void> context = require_context(); !context) return tl::unexpected(context.error());
-  const std::array<std::pair<GLenum, const std::string*>, 6> stages{{{GL_VERTEX_SHADER, &desc.vertex},
-                                                                     {GL_TESS_CONTROL_SHADER, &desc.tess_control},
-                                                                     {GL_TESS_EVALUATION_SHADER, &desc.tess_evaluation},
-                                                                     {GL_GEOMETRY_SHADER, &desc.geometry},
-                                                                     {GL_FRAGMENT_SHADER, &desc.fragment},
-                                                                     {GL_COMPUTE_SHADER, &desc.compute}}};
+// What a program is made from, as one text.
+std::string text_of(const ProgramDesc& desc, const std::vector<Stage>& stages) {
+  std::string text;
+  for (const Stage& stage : stages) text += std::to_string(stage.kind) + "\n" + stage.source.text;
+  for (const char* varying : desc.feedback_varyings) text += std::string(varying) + "\n";
+  return text;
+}
+
+Expected<Program> link(const ProgramDesc& desc, const std::vector<Stage>& stages, bool retrievable) {
   Program program(glCreateProgram());
   label(GL_PROGRAM, program.id(), desc.name);
   std::vector<Shader> shaders;
-  for (const auto& [stage, file] : stages) {
-    if (file->empty()) continue;
-    Expected<ResolvedSource> source = resolve(*file, desc.defines);
-    if (!source) return fail("shader program '" + desc.name + "': " + source.error().message);
-    Expected<Shader> shader = compile(stage, desc, *file, *source);
+  for (const Stage& stage : stages) {
+    Expected<Shader> shader = compile(stage.kind, desc, *stage.file, stage.source);
     if (!shader) return tl::unexpected(shader.error());
     glAttachShader(program.id(), shader->id());
     shaders.push_back(std::move(*shader));
@@ -92,6 +95,7 @@ Expected<Program> ShaderLibrary::build(const ProgramDesc& desc) const {
     glTransformFeedbackVaryings(program.id(), GLsizei(desc.feedback_varyings.size()), desc.feedback_varyings.data(),
                                 GL_INTERLEAVED_ATTRIBS);
   }
+  if (retrievable) glProgramParameteri(program.id(), GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
   glLinkProgram(program.id());
   GLint linked = GL_FALSE;
   glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
@@ -99,6 +103,34 @@ Expected<Program> ShaderLibrary::build(const ProgramDesc& desc) const {
     return fail("shader program '" + desc.name + "' does not link:\n" + program_log(program.id()));
   }
   for (const Shader& shader : shaders) glDetachShader(program.id(), shader.id());
+  return program;
+}
+
+}  // namespace
+
+Expected<Program> ShaderLibrary::build(const ProgramDesc& desc) const {
+  if (Expected<void> context = require_context(); !context) return tl::unexpected(context.error());
+  const std::array<std::pair<GLenum, const std::string*>, 6> files{{{GL_VERTEX_SHADER, &desc.vertex},
+                                                                    {GL_TESS_CONTROL_SHADER, &desc.tess_control},
+                                                                    {GL_TESS_EVALUATION_SHADER, &desc.tess_evaluation},
+                                                                    {GL_GEOMETRY_SHADER, &desc.geometry},
+                                                                    {GL_FRAGMENT_SHADER, &desc.fragment},
+                                                                    {GL_COMPUTE_SHADER, &desc.compute}}};
+  std::vector<Stage> stages;
+  for (const auto& [kind, file] : files) {
+    if (file->empty()) continue;
+    Expected<ResolvedSource> source = resolve(*file, desc.defines);
+    if (!source) return fail("shader program '" + desc.name + "': " + source.error().message);
+    stages.push_back({kind, file, std::move(*source)});
+  }
+  if (binaries_ == nullptr) return link(desc, stages, false);
+  const std::string text = text_of(desc, stages);
+  if (Program known = binaries_->take(text); known.id() != 0) {
+    label(GL_PROGRAM, known.id(), desc.name);
+    return known;
+  }
+  Expected<Program> program = link(desc, stages, true);
+  if (program) binaries_->store(text, *program);
   return program;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <sward/gl/handles.h>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,6 +26,8 @@ struct Define {
   std::string name, value;
 };
 
+class ProgramBinaries;
+
 /// One program: file names by stage (empty: absent) and variants as defines.
 struct ProgramDesc {
   std::string name;  ///< For messages and the debug label.
@@ -43,6 +46,8 @@ class ShaderLibrary {
   explicit ShaderLibrary(std::string override_directory) : override_directory_(std::move(override_directory)) {}
   /// A later source of the same name replaces the earlier one.
   void add_source(std::string name, std::string text);
+  /// build() takes programs from these where they have them, and adds what it links.
+  void set_binaries(std::shared_ptr<ProgramBinaries> binaries) { binaries_ = std::move(binaries); }
 
   /// `#version 450 core`, the defines, then the file. Any thread; needs no context. Errors name file and line.
   Expected<ResolvedSource> resolve(std::string_view file, std::span<const Define> defines) const;
@@ -56,6 +61,7 @@ class ShaderLibrary {
   Expected<void> append(std::string_view file, std::string_view text, Resolution& resolution) const;
   Expected<void> include(std::string_view argument, int line, Resolution& resolution) const;
   std::string override_directory_;
+  std::shared_ptr<ProgramBinaries> binaries_;
   std::vector<std::pair<std::string, std::string>> sources_;
 };
 
