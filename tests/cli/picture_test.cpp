@@ -66,6 +66,24 @@ TEST_F(CliPictures, OptionsChangeThePicture) {
   EXPECT_EQ(pictures.size(), std::size(variants));
 }
 
+// The cells of a contact sheet of a camera that stands, where nothing moves, are the picture that render makes.
+TEST_F(CliPictures, ContactSheetsHoldFramesSideBySide) {
+  SWARD_NEEDS_GL();
+  ASSERT_EQ(run("render " + scene() + camera() + "--size 64x48 --samples 1 -o a.ppm").status, 0);
+  ASSERT_EQ(run("fly " + scene() + camera() +
+                "--flight still --seconds 1 --fps 5 --size 64x48 --samples 1 --sheet sheet.ppm --sheet-frames 3")
+                .status,
+            0);
+  const std::string picture = cli::read_file(folder() / "a.ppm"), sheet = cli::read_file(folder() / "sheet.ppm");
+  ASSERT_EQ(sheet.rfind("P6\n131 99\n255\n", 0), 0u) << "two by two, three pixels between them";
+  const std::string row = picture.substr(13 + 20 * 64 * 3, 64 * 3);
+  EXPECT_EQ(sheet.substr(14 + (20 * 131 + 67) * 3, 64 * 3), row);
+  EXPECT_EQ(sheet.substr(14 + (20 + 51) * 131 * 3, 64 * 3), row);
+  EXPECT_EQ(sheet.substr(14 + ((20 + 51) * 131 + 67) * 3, 64 * 3), std::string(64 * 3, char(24)))
+      << "the fourth is none";
+  EXPECT_NE(run("plants " + scene() + " --flight still --at 0 -o p.csv").status, 0);
+}
+
 TEST_F(CliPictures, StatsAreFlatAndComplete) {
   SWARD_NEEDS_GL();
   ASSERT_EQ(run("render " + scene() + camera() + "--size 96x64 --samples 1 -o a.ppm --stats a.json").status, 0);

@@ -11,9 +11,17 @@
 
 namespace sward::tool {
 
+namespace {
+
+constexpr double k_still_s = 4;
+
+}  // namespace
+
 void add_path_options(CLI::App& app, PathOptions& options) {
-  app.add_option("--flight", options.flight, "Camera path: the built-in one, or a CSV file with one row a frame")
-      ->type_name("paper|FILE.csv")
+  app.add_option(
+         "--flight", options.flight,
+         "Camera path: a built-in one, or a CSV file with one row a frame; still (fly alone): the scene's camera, 4 s")
+      ->type_name("paper|still|FILE.csv")
       ->capture_default_str();
   app.add_option("--from", options.from_s, "Leave out so much of the path; the paper's flight is low from 10 to 20")
       ->type_name("SECONDS")
@@ -32,13 +40,18 @@ Expected<void> check_path(const PathOptions& options) {
                                     options.from_s + options.seconds.value_or(0) > host::k_paper_flight_s))
     return fail("the paper flight is 30 s long; --from and --seconds together must be at most 30");
   std::error_code ignored;
-  if (options.flight != "paper" && !std::filesystem::is_regular_file(options.flight, ignored))
-    return fail(options.flight + ": there is no such flight; name a CSV file or the built-in \"paper\"");
+  if (options.flight == "still" && options.seconds.value_or(k_still_s) * options.fps > 1e6)
+    return fail("--seconds times --fps must be at most a million frames");
+  if (options.flight != "paper" && options.flight != "still" &&
+      !std::filesystem::is_regular_file(options.flight, ignored))
+    return fail(options.flight +
+                ": there is no such flight; name a CSV file or one that is built in, \"paper\" or, for fly, \"still\"");
   auto size = parse_size(options.size);
   return size ? check_size(*size) : tl::unexpected(size.error());
 }
 
 Expected<std::vector<host::FlightFrame>> make_path(const PathOptions& options, const host::SceneTerrain& terrain) {
+  if (options.flight == "still") return fail("--flight still is for fly; this command needs a camera that moves");
   if (options.flight == "paper" && terrain.world() != nullptr)
     return fail(
         "over a world the flight comes from a file (--flight FILE.csv): the built-in one follows ground that is "
@@ -58,6 +71,17 @@ Expected<std::vector<host::FlightFrame>> make_path(const PathOptions& options, c
   const double end = options.seconds ? begin + *options.seconds : std::numeric_limits<double>::infinity();
   std::erase_if(*frames, [=](const host::FlightFrame& f) { return f.time_s < begin || f.time_s >= end; });
   if (frames->empty()) return fail("no frame of the flight is left; lower --from or raise --seconds");
+  return frames;
+}
+
+Expected<std::vector<host::FlightFrame>> make_still(const PathOptions& options, const Scene& scene,
+                                                    const host::SceneTerrain& terrain) {
+  auto size = parse_size(options.size);
+  if (!size) return tl::unexpected(size.error());
+  const View view = host::scene_view(scene, terrain, *size);
+  const int count = std::max(int(std::lround(options.seconds.value_or(k_still_s) * options.fps)), 1);
+  std::vector<host::FlightFrame> frames;
+  for (int i = 0; i < count; ++i) frames.push_back({options.from_s + i / options.fps, view});
   return frames;
 }
 

@@ -10,6 +10,7 @@
 #include "sward/arguments.h"
 #include "sward/commands/commands.h"
 #include "sward/commands/flight_options.h"
+#include "sward/output/contact_sheet.h"
 #include "sward/output/figures.h"
 #include "sward/output/files.h"
 #include "sward/output/paper_figures.h"
@@ -25,8 +26,8 @@ namespace {
 struct FlyOptions {
   SceneOptions scene;
   PathOptions path;
-  std::string samples = "max", csv, summary, plots, video;
-  int repeat = 1;
+  std::string samples = "max", csv, summary, plots, video, sheet;
+  int repeat = 1, sheet_frames = 12;
   bool no_plants = false, wait = false;
 };
 
@@ -36,6 +37,8 @@ Expected<void> check(const FlyOptions& options) {
   if (*samples < 0) return fail("--samples must be 1 or more, or max");
   for (const std::string& path : {options.csv, options.summary, options.video})
     if (auto checked = check_output(path); !checked) return checked;
+  if (!options.sheet.empty())
+    if (auto checked = check_picture(options.sheet); !checked) return checked;
   if (!options.plots.empty())
     if (auto checked = check_output_folder(options.plots); !checked) return checked;
   if (!options.video.empty() && find_program("ffmpeg").empty())
@@ -62,8 +65,43 @@ struct Flown {
 
 // What one flight along the path is for.
 struct Pass {
-  std::string name = "flying";  // on the progress line
-  bool video = false, plants = false;
+  std::string name = "flying";            // on the progress line
+  bool pictures = false, plants = false;  // video and contact sheet
+};
+
+// What frames are shown in.
+class Pictures {
+ public:
+  static Expected<Pictures> open(const FlyOptions& options, glm::ivec2 size, size_t frames) {
+    Pictures pictures;
+    pictures.sheet_path_ = options.sheet;
+    if (!options.sheet.empty()) pictures.sheet_.emplace(size, frames, size_t(options.sheet_frames));
+    if (options.video.empty()) return pictures;
+    auto video = VideoPipe::open(options.video, size, options.path.fps);
+    if (!video) return tl::unexpected(video.error());
+    pictures.video_.emplace(std::move(*video));
+    return pictures;
+  }
+
+  Expected<void> add(host::RenderTarget& target) {
+    const bool shown = sheet_ && sheet_->wants_next();
+    if (sheet_ && !shown) sheet_->skip();
+    if (!shown && !video_) return {};
+    const std::vector<uint8_t> rgb = target.read_rgb();
+    if (shown) sheet_->add(rgb);
+    return video_ ? video_->write(rgb) : Expected<void>();
+  }
+
+  Expected<void> finish() {
+    if (sheet_)
+      if (auto saved = sheet_->save(sheet_path_); !saved) return saved;
+    return video_ ? video_->finish() : Expected<void>();
+  }
+
+ private:
+  std::string sheet_path_;
+  std::optional<ContactSheet> sheet_;
+  std::optional<VideoPipe> video_;
 };
 
 // The first frame is drawn once before the clock runs: it builds the mesh from its roots and makes the driver compile,
@@ -71,11 +109,11 @@ struct Pass {
 Expected<Flown> fly_frames(const FlyOptions& options, const Scene& scene, const std::vector<host::FlightFrame>& path,
                            host::RenderTarget& target, host::SceneRenderer& renderer, const Pass& pass) {
   Flown flown{{}, target.size(), target.samples()};
-  std::optional<VideoPipe> video;
-  if (pass.video) {
-    auto opened = VideoPipe::open(options.video, target.size(), options.path.fps);
+  std::optional<Pictures> pictures;
+  if (pass.pictures) {
+    auto opened = Pictures::open(options, target.size(), path.size());
     if (!opened) return tl::unexpected(opened.error());
-    video.emplace(std::move(*opened));
+    pictures.emplace(std::move(*opened));
   }
   const gl::Lighting lighting = make_lighting(scene);
   ProgressLine progress(pass.name);
@@ -98,12 +136,12 @@ Expected<Flown> fly_frames(const FlyOptions& options, const Scene& scene, const 
       drawn.push_back(make_figures(*stats, frame.time_s, spent.count(), plants));
     }
     flown.frames.push_back(median_figures(drawn));
-    if (video)
-      if (auto written = video->write(target.read_rgb()); !written) return tl::unexpected(written.error());
+    if (pictures)
+      if (auto added = pictures->add(target); !added) return tl::unexpected(added.error());
     progress.show(float(flown.frames.size()) / float(path.size()));
   }
-  if (video)
-    if (auto finished = video->finish(); !finished) return tl::unexpected(finished.error());
+  if (pictures)
+    if (auto finished = pictures->finish(); !finished) return tl::unexpected(finished.error());
   return flown;
 }
 
@@ -114,7 +152,7 @@ Expected<PaperRuns> fly_paper(const FlyOptions& options, const Scene& scene, con
   PaperRuns runs{std::move(with), {}, {}};
   renderer.set_vegetation(false);
   auto without = fly_frames(options, scene, path, target, renderer,
-                            {.name = "figure 7, without vegetation", .video = false, .plants = false});
+                            {.name = "figure 7, without vegetation", .pictures = false, .plants = false});
   if (!without) return tl::unexpected(without.error());
   runs.without = std::move(without->frames);
   renderer.set_vegetation(true);
@@ -129,8 +167,9 @@ Expected<PaperRuns> fly_paper(const FlyOptions& options, const Scene& scene, con
       layer.cluster_size = size;
       if (auto set = renderer.set_layer(i, layer); !set) return tl::unexpected(set.error());
     }
-    auto flown = fly_frames(options, scene, path, target, renderer,
-                            {.name = "figure 9, clusters of " + std::to_string(size), .video = false, .plants = false});
+    auto flown =
+        fly_frames(options, scene, path, target, renderer,
+                   {.name = "figure 9, clusters of " + std::to_string(size), .pictures = false, .plants = false});
     if (!flown) return tl::unexpected(flown.error());
     runs.clusters.push_back({size, std::move(flown->frames)});
   }
@@ -172,7 +211,10 @@ Expected<void> fly(FlyOptions options, bool size_given) {
   if (auto tried = host::RenderTarget::create({1, 1}, *samples); !tried) return tl::unexpected(tried.error());
   auto terrain = make_terrain(*scene, options.scene);
   if (!terrain) return tl::unexpected(terrain.error());
-  auto path = make_path(options.path, **terrain);
+  if (!options.scene.camera.empty() && options.path.flight != "still")
+    return fail("--camera is for --flight still; other flights have their own");
+  auto path =
+      options.path.flight == "still" ? make_still(options.path, *scene, **terrain) : make_path(options.path, **terrain);
   if (!path) return tl::unexpected(path.error());
   if (!size_given) *size = path->front().view.viewport;
   if (auto checked = check_viewports(*path, *size); !checked) return checked;
@@ -183,7 +225,7 @@ Expected<void> fly(FlyOptions options, bool size_given) {
   renderer->set_vegetation(!options.no_plants);
   if (options.wait) renderer->set_streaming(host::Streaming::wait);
 
-  const Pass first{.name = "flying", .video = !options.video.empty(), .plants = !options.no_plants};
+  const Pass first{.name = "flying", .pictures = true, .plants = !options.no_plants};
   auto flown = fly_frames(options, *scene, *path, *target, *renderer, first);
   if (!flown) return tl::unexpected(flown.error());
   if (!options.csv.empty())
@@ -211,6 +253,7 @@ Command add_fly(CLI::App& parent) {
       "frame is drawn once before the clock runs. plants are counted outside of the clock.");
   add_scene_options(*app, options->scene, true);
   add_source_option(*app, options->scene);
+  add_camera_option(*app, options->scene);
   add_sun_option(*app, options->scene);
   add_shaders_option(*app, options->scene);
   add_path_options(*app, options->path);
@@ -238,6 +281,11 @@ Command add_fly(CLI::App& parent) {
          "Folder for line plots (SVG); of the paper flight also its figures 7 to 9, which take six more flights")
       ->type_name("DIR");
   app->add_option("--video", options->video, "Video through ffmpeg")->type_name("FILE.mp4");
+  app->add_option("--sheet", options->sheet, "Contact sheet: some of the frames side by side")->type_name("FILE");
+  app->add_option("--sheet-frames", options->sheet_frames, "How many")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
   return {app, [options, size] { return fly(*options, size->count() > 0); }};
 }
 
