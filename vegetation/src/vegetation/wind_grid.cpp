@@ -1,0 +1,169 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+
+// Lee, "Infinite grass" (2010), "Wind Simulation": a bell curve of acceleration ahead of what moves, Euler steps,
+// damped acceleration, velocity diffused among neighbours, a grid that follows in whole cells. Here steps are fixed and
+// damping is their exact exponential, so that nothing depends on the frame rate; velocity is damped too, which
+// diffusion alone does not bring to rest; and cells stay where they are in memory.
+#include "vegetation/wind_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sward {
+
+namespace {
+
+constexpr double k_acceleration_s = 0.12, k_velocity_s = 0.8;  // in which they fall to 37 %
+constexpr double k_diffusion = 0.25;                           // m2/s
+constexpr float k_rest = 2e-3f;                                // m/s: slower rows come to rest
+constexpr float k_bell_reach = 2.5f;                           // radii: beyond, the curve is under 1.2 % of its top
+constexpr float k_bell_top = 0.42888194f;                      // of x exp(-x^2), at 0.71
+
+const float k_keep_acceleration = float(std::exp(-k_wind_step_s / k_acceleration_s));
+const float k_keep_velocity = float(std::exp(-k_wind_step_s / k_velocity_s));
+
+}  // namespace
+
+WindGrid::WindGrid(int side, double cell_m)
+    : side_(side),
+      cell_m_(cell_m),
+      diffusion_(float(1.0 - std::exp(-4.0 * k_diffusion * k_wind_step_s / (cell_m * cell_m)))),
+      first_(-side / 2),
+      velocity_(size_t(side) * size_t(side)),
+      acceleration_(velocity_.size()),
+      force_(velocity_.size()),
+      stamps_(size_t(side)),
+      live_(size_t(side)),
+      forced_(size_t(side)),
+      first_row_(size_t(side)),
+      above_(size_t(side)),
+      old_(size_t(side)) {}
+
+glm::vec2 WindGrid::sample(glm::vec2 uv) const {
+  const glm::vec2 q = (uv - glm::floor(uv)) * float(side_) - 0.5f, corner = glm::floor(q), f = q - corner;
+  const auto cell = [&](int x, int y) {
+    return velocity_[row_begin(int(corner.y) + y) + size_t((int(corner.x) + x) & (side_ - 1))];
+  };
+  return glm::mix(glm::mix(cell(0, 0), cell(1, 0), f.x), glm::mix(cell(0, 1), cell(1, 1), f.x), f.y);
+}
+
+void WindGrid::clear() {
+  if (live_rows_ == 0) return;
+  ++stamp_;
+  for (int row = 0; row < side_; ++row) forget_row(row);
+}
+
+void WindGrid::forget_row(int64_t row) {
+  const size_t at = size_t(row & (side_ - 1)), begin = row_begin(row), end = begin + size_t(side_);
+  if (!live_[at]) return;
+  std::fill(velocity_.begin() + begin, velocity_.begin() + end, glm::vec2(0));
+  std::fill(acceleration_.begin() + begin, acceleration_.begin() + end, glm::vec2(0));
+  live_[at] = 0;
+  --live_rows_;
+  stamps_[at] = stamp_;
+}
+
+void WindGrid::forget_column(int64_t column) {
+  for (size_t row = 0; row < size_t(side_); ++row) {
+    if (!live_[row]) continue;
+    const size_t at = row * size_t(side_) + size_t(column & (side_ - 1));
+    velocity_[at] = acceleration_[at] = glm::vec2(0);
+    stamps_[row] = stamp_;
+  }
+}
+
+void WindGrid::follow(glm::dvec2 eye) {
+  const glm::i64vec2 first = glm::i64vec2(glm::floor(eye / cell_m_)) - int64_t(side_ / 2);
+  const glm::i64vec2 by = first - first_;
+  first_ = first;
+  if (live_rows_ == 0 || by == glm::i64vec2(0)) return;
+  if (std::max(std::abs(by.x), std::abs(by.y)) >= side_) return clear();
+  ++stamp_;
+  // What it leaves, what it enters, and the ring around, all of which are the same cells in memory.
+  const auto each = [&](int64_t from, int64_t steps, auto&& forget) {
+    const int64_t begin = steps > 0 ? from - steps : from, count = std::abs(steps);
+    if (steps == 0) return;
+    for (int64_t i = -1; i <= count; ++i) forget(begin + i);
+  };
+  each(first.x, by.x, [&](int64_t column) { forget_column(column); });
+  each(first.y, by.y, [&](int64_t row) { forget_row(row); });
+}
+
+void WindGrid::push(const Push& push) {
+  // Less than a cell wide it would fall between cells: it is widened, its push kept.
+  const float radius = std::max(push.radius_m, float(0.8 * cell_m_));
+  const float speed = push.speed * (push.radius_m / radius) * (push.radius_m / radius) / k_bell_top;
+  const glm::dvec2 reach(double(k_bell_reach) * double(radius));
+  const glm::i64vec2 low = glm::max(glm::i64vec2(glm::floor((push.at - reach) / cell_m_)), first_ + int64_t(1));
+  const glm::i64vec2 high =
+      glm::min(glm::i64vec2(glm::floor((push.at + reach) / cell_m_)), first_ + int64_t(side_ - 2));
+  if (low.x > high.x || low.y > high.y) return;
+  // exp(-x^2 - y^2) = exp(-x^2) exp(-y^2): one curve a column, one a row.
+  const auto offset = [&](int64_t cell, double at) { return float(((double(cell) + 0.5) * cell_m_ - at)) / radius; };
+  bell_.resize(size_t(high.x - low.x + 1));
+  for (int64_t column = low.x; column <= high.x; ++column) {
+    const float x = offset(column, push.at.x);
+    bell_[size_t(column - low.x)] = std::exp(-x * x);
+  }
+  const bool all_around = push.ahead == glm::vec2(0);
+  for (int64_t row = low.y; row <= high.y; ++row) {
+    const float y = offset(row, push.at.y), height = speed * std::exp(-y * y);
+    glm::vec2* const cells = force_.data() + row_begin(row);
+    forced_[size_t(row & (side_ - 1))] = 1;
+    for (int64_t column = low.x; column <= high.x; ++column) {
+      const glm::vec2 from(offset(column, push.at.x), y);
+      float share = height * bell_[size_t(column - low.x)];
+      if (!all_around) share *= std::max(glm::dot(from, push.ahead), 0.0f) / (glm::length(from) + 1e-6f);
+      cells[column & (side_ - 1)] += share * from;
+    }
+  }
+}
+
+void WindGrid::step() {
+  if (live_rows_ == 0 && std::find(forced_.begin(), forced_.end(), 1) == forced_.end()) return;
+  ++stamp_;
+  const size_t rows = size_t(side_), mask = rows - 1;
+  const std::vector<uint8_t> live = live_;
+  const auto row_at = [&](size_t row) { return velocity_.begin() + row * rows; };
+  const size_t ring[2] = {size_t(first_.y) & mask, size_t(first_.y + side_ - 1) & mask};
+  std::copy_n(row_at(0), rows, first_row_.begin());
+  std::copy_n(row_at(rows - 1), rows, above_.begin());
+  for (size_t row = 0; row < rows; ++row) {
+    std::copy_n(row_at(row), rows, old_.begin());
+    const bool active = forced_[row] || live[row] || live[(row - 1) & mask] || live[(row + 1) & mask];
+    if (active && row != ring[0] && row != ring[1])
+      step_row(row, above_.data(), old_.data(), row + 1 < rows ? &*row_at(row + 1) : first_row_.data());
+    std::swap(above_, old_);
+  }
+}
+
+void WindGrid::step_row(size_t row, const glm::vec2* above, const glm::vec2* old, const glm::vec2* below) {
+  const size_t side = size_t(side_), mask = side - 1, begin = row * side;
+  glm::vec2* const velocity = velocity_.data() + begin;
+  glm::vec2* const acceleration = acceleration_.data() + begin;
+  const glm::vec2* const force = force_.data() + begin;
+  const float take_force = 1.0f - k_keep_acceleration, take_speed = 1.0f - k_keep_velocity;
+  float most = 0;
+  for (size_t i = 0; i < side; ++i) {
+    const glm::vec2 neighbours = 0.25f * (above[i] + below[i] + old[(i - 1) & mask] + old[(i + 1) & mask]);
+    // In m/s: acceleration times the time in which velocity is damped.
+    acceleration[i] = k_keep_acceleration * acceleration[i] + take_force * force[i];
+    velocity[i] = k_keep_velocity * (old[i] + diffusion_ * (neighbours - old[i])) + take_speed * acceleration[i];
+    most = std::max(most, std::max(std::abs(velocity[i].x) + std::abs(velocity[i].y),
+                                   std::abs(acceleration[i].x) + std::abs(acceleration[i].y)));
+  }
+  for (const int64_t column : {first_.x, first_.x + side_ - 1})
+    velocity[size_t(column) & mask] = acceleration[size_t(column) & mask] = glm::vec2(0);
+  if (forced_[row]) std::fill(force_.begin() + begin, force_.begin() + begin + side, glm::vec2(0));
+  forced_[row] = 0;
+  stamps_[row] = stamp_;
+  const uint8_t now = most > k_rest;
+  live_rows_ += now - live_[row];
+  live_[row] = now;
+  if (now) return;
+  std::fill(velocity, velocity + side, glm::vec2(0));
+  std::fill(acceleration, acceleration + side, glm::vec2(0));
+}
+
+}  // namespace sward
