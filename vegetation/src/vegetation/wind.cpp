@@ -18,7 +18,7 @@ namespace {
 
 // Turned against each other, and of sides of no common measure, so that no two places are alike.
 constexpr double k_gust_turns[2] = {0.0, 0.93}, k_noise_turns[2] = {0.4, 1.3};
-constexpr double k_noise_tiles_m[2] = {23.0, 14.3};
+constexpr double k_noise_tiles_m[2] = {59.0, 36.7};
 constexpr double k_small_gusts = 0.31;  // length of the second map's against the first's
 
 double gust_tile(const Weather& weather, size_t map) {
@@ -29,10 +29,6 @@ double gust_tile(const Weather& weather, size_t map) {
 void refresh(WindState& state) {
   choose_wind_sources(state);
   state.params = make_wind_params(state, state.eye);
-}
-
-tl::unexpected<Error> refuse(const char* what, const std::string& fault) {
-  return fail(std::string(what) + ": " + fault);
 }
 
 }  // namespace
@@ -73,7 +69,7 @@ Wind& Wind::operator=(Wind&&) noexcept = default;
 Wind::~Wind() = default;
 
 Expected<void> Wind::set_weather(const Weather& weather) {
-  if (const std::string fault = wind_fault(weather); !fault.empty()) return refuse("weather", fault);
+  if (auto valid = validate(weather); !valid) return tl::unexpected(valid.error());
   WindState& state = *state_;
   state.weather = weather;
   // It comes from there, so it blows the other way.
@@ -92,7 +88,7 @@ const Weather& Wind::weather() const {
 }
 
 Expected<WindSourceId> Wind::add_source(const WindSource& source) {
-  if (const std::string fault = wind_fault(source); !fault.empty()) return refuse("wind source", fault);
+  if (auto valid = validate(source); !valid) return tl::unexpected(valid.error());
   if (state_->sources.size() >= k_most_wind_sources)
     return fail("there are " + std::to_string(k_most_wind_sources) + " wind sources already; remove one first");
   const WindSourceId id = state_->sources.add(source);
@@ -111,7 +107,7 @@ uint32_t Wind::sources() const {
 }
 
 Expected<WindMoverId> Wind::add_mover(const WindMover& mover) {
-  if (const std::string fault = wind_fault(mover); !fault.empty()) return refuse("wind mover", fault);
+  if (auto valid = validate(mover); !valid) return tl::unexpected(valid.error());
   if (state_->movers.size() >= k_most_wind_movers)
     return fail("there are " + std::to_string(k_most_wind_movers) + " wind movers already; remove one first");
   return state_->movers.add({mover, mover.position});
@@ -123,7 +119,7 @@ Expected<void> Wind::move(WindMoverId id, glm::dvec2 position, float above_groun
   WindMover moved = found->mover;
   moved.position = position;
   moved.above_ground_m = above_ground_m;
-  if (const std::string fault = wind_fault(moved); !fault.empty()) return refuse("wind mover", fault);
+  if (auto valid = validate(moved); !valid) return tl::unexpected(valid.error());
   found->mover = moved;
   return {};
 }
@@ -138,7 +134,7 @@ uint32_t Wind::movers() const {
 
 Expected<void> Wind::set_painted(std::shared_ptr<const PaintedWind> painted) {
   if (painted)
-    if (const std::string fault = wind_fault(*painted); !fault.empty()) return refuse("painted wind", fault);
+    if (auto valid = validate(*painted); !valid) return tl::unexpected(valid.error());
   state_->painted = std::move(painted);
   ++state_->painting;
   refresh(*state_);

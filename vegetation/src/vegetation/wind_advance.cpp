@@ -18,6 +18,7 @@ constexpr double k_carried[2] = {0.22, 0.13};                     // share of th
 constexpr double k_turning[2] = {0.23, -0.17};                    // radians a second
 constexpr int64_t k_most_steps = 1200;                            // of an advance: 10 s
 constexpr double k_jump_m_s = 500;
+constexpr double k_passing = 1.5;
 
 double wrapped_turn(double radians) {
   return std::remainder(radians, 2.0 * std::numbers::pi);
@@ -49,7 +50,8 @@ bool make_course(const MovingMover& each, double seconds, Course& course) {
   if (mover.kind == WindMover::Kind::body) {
     if (!(pace > 0)) return false;
     course.push.ahead = glm::vec2(way / (pace * seconds));
-    course.push.speed *= float(pace);
+    // Air has the time of passing by to take up speed: a push in proportion to pace^2 gives it the body's.
+    course.push.speed *= float(pace * (1.0 + k_passing * pace * k_wind_rest_s / double(mover.radius_m)));
   }
   return pace <= k_jump_m_s && course.push.speed > 0;
 }

@@ -38,7 +38,11 @@ class Faults {
   Faults& place(const char* name, glm::dvec2 value) {
     return within(name, value.x, -k_farthest_m, k_farthest_m).within(name, value.y, -k_farthest_m, k_farthest_m);
   }
-  const std::string& first() const { return first_; }
+  bool any() const { return !first_.empty(); }
+  Expected<void> result(const char* what) const {
+    if (!any()) return {};
+    return fail(std::string(what) + ": " + first_);
+  }
 
  private:
   void note(const std::string& fault) {
@@ -49,7 +53,7 @@ class Faults {
 
 }  // namespace
 
-std::string wind_fault(const Weather& w) {
+Expected<void> validate(const Weather& w) {
   return Faults()
       .within("speed_m_s", double(w.speed_m_s), 0, 120)
       .within("from_azimuth", double(w.from_azimuth), -1e4, 1e4)
@@ -57,10 +61,10 @@ std::string wind_fault(const Weather& w) {
       .within("gust_length_m", double(w.gust_length_m), 2, 10000)
       .within("ambient_m_s", double(w.ambient_m_s), 0, 20)
       .within("turbulence", double(w.turbulence), 0, 1)
-      .first();
+      .result("weather");
 }
 
-std::string wind_fault(const WindSource& s) {
+Expected<void> validate(const WindSource& s) {
   Faults faults;
   faults.place("position", s.position)
       .within("velocity_m_s.x", s.velocity_m_s.x, -120, 120)
@@ -77,33 +81,34 @@ std::string wind_fault(const WindSource& s) {
       .within("travel_m_s", double(s.travel_m_s), 0.1f, 1000)
       .within("wave_period_s", double(s.wave_period_s), 0.05f, 1000)
       .within("wave_share", double(s.wave_share), 0, 1)
-      .first();
+      .result("wind source");
 }
 
-std::string wind_fault(const WindMover& m) {
+Expected<void> validate(const WindMover& m) {
   return Faults()
       .place("position", m.position)
       .within("above_ground_m", double(m.above_ground_m), 0, 10000)
       .above("radius_m", double(m.radius_m), 0, 50)
       .within("strength", double(m.strength), 0, m.kind == WindMover::Kind::body ? 4 : 120)
-      .first();
+      .result("wind mover");
 }
 
-std::string wind_fault(const PaintedWind& p) {
+Expected<void> validate(const PaintedWind& p) {
   Faults faults;
   faults.within("width", p.width, 1, 4096).within("height", p.height, 1, 4096);
   faults.place("min", p.min)
       .above("size_m.x", p.size_m.x, 0, k_farthest_m)
       .above("size_m.y", p.size_m.y, 0, k_farthest_m);
-  if (!faults.first().empty()) return faults.first();
+  if (faults.any()) return faults.result("painted wind");
   const size_t texels = size_t(p.width) * size_t(p.height);
   if (p.factors.size() != texels)
-    return "it has " + std::to_string(p.factors.size()) + " factors; give " + std::to_string(texels);
+    return fail("painted wind: it has " + std::to_string(p.factors.size()) + " factors; give " +
+                std::to_string(texels));
   for (const glm::vec2 factor : p.factors) {
     faults.within("a factor", double(factor.x), -4, 4).within("a factor", double(factor.y), -4, 4);
-    if (!faults.first().empty()) break;
+    if (faults.any()) break;
   }
-  return faults.first();
+  return faults.result("painted wind");
 }
 
 }  // namespace sward

@@ -14,14 +14,45 @@ namespace sward {
 
 namespace {
 
-constexpr double k_acceleration_s = 0.12, k_velocity_s = 0.8;  // in which they fall to 37 %
-constexpr double k_diffusion = 0.25;                           // m2/s
-constexpr float k_rest = 2e-3f;                                // m/s: slower rows come to rest
-constexpr float k_bell_reach = 2.5f;                           // radii: beyond, the curve is under 1.2 % of its top
-constexpr float k_bell_top = 0.42888194f;                      // of x exp(-x^2), at 0.71
+constexpr double k_acceleration_s = 0.12;  // in which a push falls to 37 %
+constexpr double k_diffusion = 0.25;       // m2/s
+constexpr float k_rest = 2e-3f;            // m/s: slower rows come to rest
+constexpr float k_nothing = 1e-7f;         // m/s: less would end in denormals, which are slow
+constexpr float k_bell_reach = 2.5f;       // radii: beyond, the curve is under 1.2 % of its top
+constexpr float k_bell_top = 0.42888194f;  // of x exp(-x^2), at 0.71
 
 const float k_keep_acceleration = float(std::exp(-k_wind_step_s / k_acceleration_s));
-const float k_keep_velocity = float(std::exp(-k_wind_step_s / k_velocity_s));
+const float k_keep_velocity = float(std::exp(-k_wind_step_s / k_wind_rest_s));
+
+bool moving(glm::vec2 v) {
+  return std::abs(v.x) > k_rest || std::abs(v.y) > k_rest;
+}
+
+struct Neighbours {
+  const glm::vec2 *above, *old, *below;
+};
+
+/// Cells `from` up to `to` of a row, as a plain loop over floats, which compilers make wide. Returns whether any moves.
+bool step_cells(const Neighbours& rows, const glm::vec2* force, size_t from, size_t to, float diffusion,
+                glm::vec2* velocity, glm::vec2* acceleration) {
+  const float *const up = &rows.above->x, *const down = &rows.below->x, *const old = &rows.old->x;
+  const float* const push = &force->x;
+  float* __restrict const v = &velocity->x, * __restrict const a = &acceleration->x;
+  const float keep_a = k_keep_acceleration, keep_v = k_keep_velocity;
+  int any = 0;
+  for (size_t i = 2 * from; i < 2 * to; ++i) {
+    const float around = 0.25f * (up[i] + down[i] + old[i - 2] + old[i + 2]);
+    // In m/s: acceleration times the time in which velocity is damped.
+    float pushed = keep_a * a[i] + (1 - keep_a) * push[i];
+    pushed = std::abs(pushed) > k_nothing ? pushed : 0.0f;
+    float moved = keep_v * (old[i] + diffusion * (around - old[i])) + (1 - keep_v) * pushed;
+    moved = std::abs(moved) > k_nothing ? moved : 0.0f;
+    a[i] = pushed;
+    v[i] = moved;
+    any |= int(std::abs(moved) > k_rest) | int(std::abs(pushed) > k_rest);
+  }
+  return any != 0;
+}
 
 }  // namespace
 
@@ -37,8 +68,7 @@ WindGrid::WindGrid(int side, double cell_m)
       live_(size_t(side)),
       forced_(size_t(side)),
       first_row_(size_t(side)),
-      above_(size_t(side)),
-      old_(size_t(side)) {}
+      kept_{first_row_, first_row_} {}
 
 glm::vec2 WindGrid::sample(glm::vec2 uv) const {
   const glm::vec2 q = (uv - glm::floor(uv)) * float(side_) - 0.5f, corner = glm::floor(q), f = q - corner;
@@ -128,13 +158,18 @@ void WindGrid::step() {
   const auto row_at = [&](size_t row) { return velocity_.begin() + row * rows; };
   const size_t ring[2] = {size_t(first_.y) & mask, size_t(first_.y + side_ - 1) & mask};
   std::copy_n(row_at(0), rows, first_row_.begin());
-  std::copy_n(row_at(rows - 1), rows, above_.begin());
+  // Rows are stepped in place: of the one above, what it was is kept; an unstepped one still is what it was.
+  const glm::vec2* above = &*row_at(rows - 1);
   for (size_t row = 0; row < rows; ++row) {
-    std::copy_n(row_at(row), rows, old_.begin());
     const bool active = forced_[row] || live[row] || live[(row - 1) & mask] || live[(row + 1) & mask];
-    if (active && row != ring[0] && row != ring[1])
-      step_row(row, above_.data(), old_.data(), row + 1 < rows ? &*row_at(row + 1) : first_row_.data());
-    std::swap(above_, old_);
+    if (!active || row == ring[0] || row == ring[1]) {
+      above = &*row_at(row);
+      continue;
+    }
+    std::vector<glm::vec2>& old = kept_[row & 1];
+    std::copy_n(row_at(row), rows, old.begin());
+    step_row(row, above, old.data(), row + 1 < rows ? &*row_at(row + 1) : first_row_.data());
+    above = old.data();
   }
 }
 
@@ -142,26 +177,23 @@ void WindGrid::step_row(size_t row, const glm::vec2* above, const glm::vec2* old
   const size_t side = size_t(side_), mask = side - 1, begin = row * side;
   glm::vec2* const velocity = velocity_.data() + begin;
   glm::vec2* const acceleration = acceleration_.data() + begin;
-  const glm::vec2* const force = force_.data() + begin;
-  const float take_force = 1.0f - k_keep_acceleration, take_speed = 1.0f - k_keep_velocity;
-  float most = 0;
-  for (size_t i = 0; i < side; ++i) {
-    const glm::vec2 neighbours = 0.25f * (above[i] + below[i] + old[(i - 1) & mask] + old[(i + 1) & mask]);
-    // In m/s: acceleration times the time in which velocity is damped.
-    acceleration[i] = k_keep_acceleration * acceleration[i] + take_force * force[i];
-    velocity[i] = k_keep_velocity * (old[i] + diffusion_ * (neighbours - old[i])) + take_speed * acceleration[i];
-    most = std::max(most, std::max(std::abs(velocity[i].x) + std::abs(velocity[i].y),
-                                   std::abs(acceleration[i].x) + std::abs(acceleration[i].y)));
+  const Neighbours rows{above, old, below};
+  // The first and the last cell are neighbours on the torus.
+  bool moves = step_cells(rows, force_.data() + begin, 1, side - 1, diffusion_, velocity, acceleration);
+  for (const size_t i : {size_t(0), mask}) {
+    const glm::vec2 around = 0.25f * (above[i] + below[i] + old[(i - 1) & mask] + old[(i + 1) & mask]);
+    acceleration[i] = k_keep_acceleration * acceleration[i] + (1 - k_keep_acceleration) * force_[begin + i];
+    velocity[i] = k_keep_velocity * (old[i] + diffusion_ * (around - old[i])) + (1 - k_keep_velocity) * acceleration[i];
+    moves = moves || moving(velocity[i]) || moving(acceleration[i]);
   }
   for (const int64_t column : {first_.x, first_.x + side_ - 1})
     velocity[size_t(column) & mask] = acceleration[size_t(column) & mask] = glm::vec2(0);
   if (forced_[row]) std::fill(force_.begin() + begin, force_.begin() + begin + side, glm::vec2(0));
   forced_[row] = 0;
   stamps_[row] = stamp_;
-  const uint8_t now = most > k_rest;
-  live_rows_ += now - live_[row];
-  live_[row] = now;
-  if (now) return;
+  live_rows_ += int(moves) - int(live_[row]);
+  live_[row] = moves;
+  if (moves) return;
   std::fill(velocity, velocity + side, glm::vec2(0));
   std::fill(acceleration, acceleration + side, glm::vec2(0));
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/ext/vector_int2_sized.hpp>
 #include <glm/glm.hpp>
@@ -62,11 +63,14 @@ class WindGrid {
   std::vector<uint8_t> live_, forced_;  // rows that are not at rest; rows that are being pushed
   int live_rows_ = 0;
   uint64_t stamp_ = 0;
-  std::vector<glm::vec2> first_row_, above_, old_;  // of a step
-  std::vector<float> bell_;                         // of a push
+  std::vector<glm::vec2> first_row_;            // of a step, as it was before
+  std::array<std::vector<glm::vec2>, 2> kept_;  // so too this row and the one above
+  std::vector<float> bell_;                     // of a push
 };
 
 /// Seconds of WindGrid::step().
 inline constexpr double k_wind_step_s = 1.0 / 120.0;
+/// In which air that is not pushed slows to 37 %.
+inline constexpr double k_wind_rest_s = 0.8;
 
 }  // namespace sward

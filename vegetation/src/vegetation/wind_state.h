@@ -5,7 +5,6 @@
 #include <sward/vegetation/wind.h>
 #include <array>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "vegetation/wind_grid.h"
@@ -64,10 +63,6 @@ wind_shared::WindParams make_wind_params(const WindState& state, glm::dvec3 eye)
 /// common_wind_field.glsl on the CPU. `point` relative to the eye of `params`.
 WindHere wind_here(const WindState& state, const wind_shared::WindParams& params, glm::vec2 point);
 
-/// What is wrong with a description, in words; "" when nothing is.
-std::string wind_fault(const Weather& weather);
-std::string wind_fault(const WindSource& source);
-std::string wind_fault(const WindMover& mover);
-std::string wind_fault(const PaintedWind& painted);
+Expected<void> validate(const PaintedWind& painted);
 
 }  // namespace sward

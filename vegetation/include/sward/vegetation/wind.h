@@ -62,9 +62,14 @@ struct WindMover {
   glm::dvec2 position{0};    ///< World, metres.
   float above_ground_m = 0;  ///< [0, 10000]: at twice the radius half of its wind reaches the ground.
   float radius_m = 0.6f;     ///< (0, 50]. Bodies under 1.6 m only stir the air of the fine grid.
-  float strength = 1;        ///< Of a body: share of its speed that air ahead of it takes up, [0, 4]. Of a rotor: m/s
-                             ///< outwards where it is strongest, [0, 120].
+  float strength = 1;        ///< Of a body: about the share of its speed that air ahead takes up, [0, 4]. Of a rotor:
+                             ///< m/s outwards where it is strongest, [0, 120].
 };
+
+/// Whether a wind would take them; errors name the value and what it may be.
+Expected<void> validate(const Weather& weather);
+Expected<void> validate(const WindSource& source);
+Expected<void> validate(const WindMover& mover);
 
 /// Value ids; of what has been removed they stay invalid.
 struct WindSourceId {
