@@ -102,6 +102,16 @@ Expected<void> fill_plant_mesh(const Scene& scene, Species& species) {
   return {};
 }
 
+Expected<void> fill_wind(Scene& scene, Masks& known) {
+  if (!scene.wind) return {};
+  SceneWind& wind = *scene.wind;
+  auto strength = fill_mask(wind.strength_file, scene, known, wind.strength);
+  if (!strength) return fail(wind.where + ": strength_map: " + strength.error().message);
+  auto turn = fill_mask(wind.turn_file, scene, known, wind.turn);
+  if (!turn) return fail(wind.where + ": turn_map: " + turn.error().message);
+  return {};
+}
+
 using Details = std::map<std::string, std::shared_ptr<const DetailTexture>>;
 
 Expected<void> fill_detail(const std::string& file, const std::string& where, const Scene& scene, Details& known,
@@ -137,6 +147,7 @@ Expected<void> load_maps(Scene& scene) {
   if (auto loaded = load_details(scene); !loaded) return loaded;
   Masks masks;
   PlantImages images;
+  if (auto filled = fill_wind(scene, masks); !filled) return filled;
   for (Layer& layer : scene.layers) {
     if (auto filled = fill_mask(layer.mask_file, scene, masks, layer.mask); !filled) return filled;
     for (Species& species : layer.species)

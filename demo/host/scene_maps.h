@@ -6,9 +6,9 @@
 
 namespace sward::host {
 
-/// Loads the masks, distribution maps and plants' images and meshes that the scene's layers name, and its ground's
-/// detail textures; details that are built in are made. Each file is read once. Fails naming the file, and for images
-/// the scene's line.
+/// Loads the masks, distribution maps and plants' images and meshes that the scene's layers name, its wind's maps and
+/// its ground's detail textures; details that are built in are made. Each file is read once. Fails naming the file, and
+/// for images the scene's line.
 Expected<void> load_maps(Scene& scene);
 
 }  // namespace sward::host

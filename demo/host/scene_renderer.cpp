@@ -3,6 +3,7 @@
 
 #include "host/scene_renderer.h"
 
+#include <sward/vegetation/wind_textures.h>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -12,7 +13,9 @@
 
 #include "host/gpu_timer.h"
 #include "host/scene_frame.h"
+#include "host/scene_wind.h"
 #include "host/stopwatch.h"
+#include "host/wind_overlay.h"
 
 namespace sward::host {
 
@@ -105,11 +108,47 @@ Expected<Programs> build_programs(const std::vector<Layer>& layers, TerrainSourc
   return programs;
 }
 
+// Dead air, for scenes without [wind].
+SceneWind dead_air() {
+  SceneWind wind;
+  wind.weather.ambient_m_s = 0;
+  return wind;
+}
+
 }  // namespace
 
 bool gpu_can_time() {
   return !gl::software_renderer();
 }
+
+namespace {
+
+// The wind, where the scene has one or the host has asked for it.
+struct Air {
+  std::optional<SceneWindReplay> wind;
+  std::optional<WindTextures> textures;  // from the first frame with a wind on
+  std::optional<WindOverlay> arrows;
+  bool arrows_on = false;
+  double time_s = 0;  // of the last frame
+  glm::dvec3 eye{0};
+
+  Expected<void> follow(const View& view, double now_s) {
+    time_s = now_s;
+    eye = view.eye;
+    if (!wind) return {};
+    if (auto valid = view.validate(); !valid) return valid;
+    if (auto followed = wind->follow(now_s, eye); !followed) return followed;
+    if (!textures) {
+      auto made = WindTextures::create();
+      if (!made) return tl::unexpected(made.error());
+      textures = std::move(*made);
+    }
+    textures->upload(wind->wind(), view.eye);
+    return {};
+  }
+};
+
+}  // namespace
 
 struct SceneRenderer::Impl {
   const SceneTerrain& terrain;
@@ -126,6 +165,7 @@ struct SceneRenderer::Impl {
   bool vegetation_on = true, sky_on = true, rasterised = true;
   Streaming streaming = Streaming::live;
   float sun_azimuth = 0;  // of the last frame
+  Air air{};
 
   Expected<void> stream(const View& view, SceneFrameStats& stats);
   TerrainSource source() const { return clipmap ? TerrainSource::clipmap : TerrainSource::roam; }
@@ -297,10 +337,18 @@ Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTer
     if (!made) return tl::unexpected(made.error());
     clipmap = std::move(*made);
   }
+  std::optional<SceneWindReplay> wind;
+  if (scene.wind) {
+    auto made = SceneWindReplay::create(*scene.wind, terrain.colors().min_corner, terrain.colors().size);
+    if (!made) return tl::unexpected(made.error());
+    wind = std::move(*made);
+  }
   const bool timed = gpu_can_time();
-  return SceneRenderer(std::unique_ptr<Impl>(new Impl{
-      terrain, scene.directory, std::move(*library), bindings, scene.layers, std::move(*frame), std::move(ground),
-      std::move(*cpu), std::move(clipmap), std::move(*programs), GpuTimer(timed), GpuTimer(timed), GpuTimer(timed)}));
+  auto impl = std::unique_ptr<Impl>(new Impl{terrain, scene.directory, std::move(*library), bindings, scene.layers,
+                                             std::move(*frame), std::move(ground), std::move(*cpu), std::move(clipmap),
+                                             std::move(*programs), GpuTimer(timed), GpuTimer(timed), GpuTimer(timed)});
+  impl->air.wind = std::move(wind);
+  return SceneRenderer(std::move(impl));
 }
 
 Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighting& lighting, double time_s,
@@ -309,6 +357,7 @@ Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighti
   SceneFrameStats stats;
   if (auto streamed = self.stream(view, stats); !streamed) return tl::unexpected(streamed.error());
   if (auto followed = self.follow(view, time_s, stats); !followed) return tl::unexpected(followed.error());
+  if (auto blown = self.air.follow(view, time_s); !blown) return tl::unexpected(blown.error());
 
   self.sun_azimuth = lighting.sun_azimuth;
   self.frame.upload(view, lighting, time_s, samples);
@@ -321,6 +370,8 @@ Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighti
   for (MeshRenderer& body : self.programs.meshes) body.draw(view, self.frame);
   self.terrain_timer.end();
   if (self.sky_on) self.programs.sky.draw(self.frame);
+  if (self.air.arrows_on && self.air.wind)
+    self.air.arrows->draw(self.frame, view, self.air.wind->wind(), self.terrain.surface());
   self.gather(wait_for_stats, stats);
   if (!self.clipmap) stats.bound_px = self.cpu.mesh().bound_px();
   return stats;
@@ -347,6 +398,27 @@ void SceneRenderer::set_rasterisation(bool enabled) {
 
 void SceneRenderer::set_sky(bool enabled) {
   impl_->sky_on = enabled;
+}
+
+Expected<void> SceneRenderer::set_wind_overlay(bool enabled) {
+  if (enabled && !impl_->air.arrows) {
+    auto arrows = WindOverlay::create(impl_->shaders, impl_->bindings);
+    if (!arrows) return tl::unexpected(arrows.error());
+    impl_->air.arrows = std::move(*arrows);
+  }
+  impl_->air.arrows_on = enabled;
+  return {};
+}
+
+Wind& SceneRenderer::wind() {
+  if (!impl_->air.wind) {
+    auto made = SceneWindReplay::create(dead_air(), glm::dvec2(0), glm::dvec2(1));
+    SWARD_ASSERT(made, "dead air is always possible");
+    const auto followed = made->follow(impl_->air.time_s, impl_->air.eye);
+    SWARD_ASSERT(followed, "the last frame was drawn from there");
+    impl_->air.wind = std::move(*made);
+  }
+  return impl_->air.wind->wind();
 }
 
 Expected<void> SceneRenderer::set_layer(size_t index, const Layer& layer) {

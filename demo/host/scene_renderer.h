@@ -9,6 +9,7 @@
 #include <sward/vegetation/clipmap_seeding.h>
 #include <sward/vegetation/mesh_renderer.h>
 #include <sward/vegetation/vegetation_renderer.h>
+#include <sward/vegetation/wind.h>
 #include <memory>
 #include <optional>
 
@@ -78,6 +79,11 @@ class SceneRenderer {
   void set_rasterisation(bool enabled);
   /// Without the sky when false, for hosts that have their own.
   void set_sky(bool enabled);
+  /// Arrows of the wind over the ground (WindOverlay) when true; the first time builds their program.
+  Expected<void> set_wind_overlay(bool enabled);
+  /// The scene's wind as of the last frame, for sources and movers of the host's; a scene without [wind] has one from
+  /// the first call on, in dead air. Going back in time starts it anew, without what was added.
+  Wind& wind();
   /// Replaces a layer's species and rules. On an error (the layer does not validate) nothing changes.
   Expected<void> set_layer(size_t index, const Layer& layer);
   /// The time of the year, 0..1, for all layers from the next frame on; the ground's is the lighting's.

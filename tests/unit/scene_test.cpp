@@ -655,6 +655,9 @@ TEST(Scene, ThePageDescribesEveryKey) {
   expect_described(scene_file::season_schema(), page);
   expect_described(scene_file::ground_season_schema(), page);
   expect_described(scene_file::exclude_schema(), page);
+  expect_described(scene_file::wind_schema(), page);
+  expect_described(scene_file::wind_source_schema(), page);
+  expect_described(scene_file::wind_mover_schema(), page);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct RenderOptions {
   SceneOptions scene;
   std::string size = "1280x720", samples = "4", output, stats;
   double time_s = 0;
-  bool no_plants = false;
+  bool no_plants = false, wind_overlay = false;
 };
 
 std::string stats_json(const FrameFigures& figures) {
@@ -65,6 +65,8 @@ Expected<void> render(const RenderOptions& options) {
   if (!renderer) return tl::unexpected(renderer.error());
   renderer->set_vegetation(!options.no_plants);
   renderer->set_streaming(host::Streaming::wait);
+  if (options.wind_overlay && !scene->wind) return fail("--wind-overlay needs a scene with [wind]; add the table");
+  if (auto set = renderer->set_wind_overlay(options.wind_overlay); !set) return set;
 
   const View view = host::scene_view(*scene, **terrain, *size);
   const auto begin = std::chrono::steady_clock::now();
@@ -101,6 +103,7 @@ Command add_render(CLI::App& parent) {
       ->capture_default_str();
   app->add_option("--time", options->time_s, "Time of what moves")->type_name("SECONDS")->capture_default_str();
   app->add_flag("--no-plants", options->no_plants, "Terrain and sky alone");
+  app->add_flag("--wind-overlay", options->wind_overlay, "Arrows of the wind over the ground");
   app->add_option("-o,--output", options->output, "Picture: .png, .ppm, ...")->type_name("FILE")->required();
   app->add_option("--stats", options->stats, "Figures of the frame as JSON")->type_name("FILE");
   return {app, [options] { return render(*options); }};

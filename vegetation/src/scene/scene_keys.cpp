@@ -727,7 +727,7 @@ const Schema<Scene>& scene_schema() {
        section("camera", camera_schema()), tables<Scene, Layer>("layer", &Scene::layers, layer_schema()),
        section("season", season_schema()),
        tables<Scene, ExclusionShape>("exclude", &Scene::exclusions, exclude_schema()),
-       tables<Scene, SceneSurface>("surface", &Scene::surfaces, surface_schema())},
+       tables<Scene, SceneSurface>("surface", &Scene::surfaces, surface_schema()), wind_key()},
       check_scene};
   return schema;
 }

@@ -31,6 +31,19 @@ const Schema<PlantMesh>& plant_mesh_schema();
 /// Surfaces and layers on meshes name each other.
 Expected<void> check_surfaces(const toml::table& table, const Scene& scene, const Context& context);
 
+/// `[[wind.source]]` as it is read.
+struct SceneWindSource {
+  enum class Kind { gust, whirlwind };
+  Kind kind = Kind::gust;
+  float speed_m_s = 12;  ///< A gust's outwards, a whirlwind's around.
+  WindSource source;
+};
+const Schema<SceneWind>& wind_schema();
+const Schema<SceneWindSource>& wind_source_schema();
+const Schema<SceneWindMover>& wind_mover_schema();
+/// `[wind]`.
+Key<Scene> wind_key();
+
 /// `[[terrain.material]]`.
 Key<Scene> materials_key();
 /// Gives materials that name a species its reference colour and weights. Fails where there is none of that name.

@@ -130,23 +130,30 @@ void WindGrid::push(const Push& push) {
       glm::min(glm::i64vec2(glm::floor((push.at + reach) / cell_m_)), first_ + int64_t(side_ - 2));
   if (low.x > high.x || low.y > high.y) return;
   // exp(-x^2 - y^2) = exp(-x^2) exp(-y^2): one curve a column, one a row.
-  const auto offset = [&](int64_t cell, double at) { return float(((double(cell) + 0.5) * cell_m_ - at)) / radius; };
-  bell_.resize(size_t(high.x - low.x + 1));
+  const auto offset = [&](int64_t cell, double at) { return float((double(cell) + 0.5) * cell_m_ - at) / radius; };
+  columns_.clear();
   for (int64_t column = low.x; column <= high.x; ++column) {
     const float x = offset(column, push.at.x);
-    bell_[size_t(column - low.x)] = std::exp(-x * x);
+    columns_.push_back({size_t(column & (side_ - 1)), x, std::exp(-x * x)});
   }
-  const bool all_around = push.ahead == glm::vec2(0);
   for (int64_t row = low.y; row <= high.y; ++row) {
-    const float y = offset(row, push.at.y), height = speed * std::exp(-y * y);
-    glm::vec2* const cells = force_.data() + row_begin(row);
+    const float y = offset(row, push.at.y);
     forced_[size_t(row & (side_ - 1))] = 1;
-    for (int64_t column = low.x; column <= high.x; ++column) {
-      const glm::vec2 from(offset(column, push.at.x), y);
-      float share = height * bell_[size_t(column - low.x)];
-      if (!all_around) share *= std::max(glm::dot(from, push.ahead), 0.0f) / (glm::length(from) + 1e-6f);
-      cells[column & (side_ - 1)] += share * from;
+    push_row(y, speed * std::exp(-y * y), push.ahead, force_.data() + row_begin(row));
+  }
+}
+
+void WindGrid::push_row(float y, float height, glm::vec2 ahead, glm::vec2* cells) const {
+  const bool all_around = ahead == glm::vec2(0);
+  for (const PushedColumn& column : columns_) {
+    const glm::vec2 from(column.x, y);
+    float share = height * column.bell;
+    if (!all_around) {
+      const float towards = from.x * ahead.x + from.y * ahead.y;
+      if (towards <= 0) continue;
+      share *= towards / std::sqrt(from.x * from.x + from.y * from.y);
     }
+    cells[column.cell] += share * from;
   }
 }
 

@@ -65,7 +65,13 @@ class WindGrid {
   uint64_t stamp_ = 0;
   std::vector<glm::vec2> first_row_;            // of a step, as it was before
   std::array<std::vector<glm::vec2>, 2> kept_;  // so too this row and the one above
-  std::vector<float> bell_;                     // of a push
+  /// Of a push.
+  struct PushedColumn {
+    size_t cell;    // in its row
+    float x, bell;  // radii from the middle; exp(-x^2)
+  };
+  void push_row(float y, float height, glm::vec2 ahead, glm::vec2* cells) const;
+  std::vector<PushedColumn> columns_;
 };
 
 /// Seconds of WindGrid::step().

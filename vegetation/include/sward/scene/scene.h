@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/scene/scene_wind.h>
 #include <sward/terrain/color_map.h>
 #include <sward/terrain/ground_material.h>
 #include <sward/terrain/height_field.h>
@@ -106,6 +107,9 @@ struct Scene {
 
   // [[exclude]]
   std::vector<ExclusionShape> exclusions;
+
+  // [wind]
+  std::optional<SceneWind> wind;  ///< Empty: the air is dead.
 
   std::string resolve(const std::string& path) const;
 };
