@@ -25,9 +25,35 @@ struct Tree {
   float cover;
 };
 
+#if SWARD_WIND
+// The softest trunk's top inclines by this much in the strongest wind, radians.
+const float k_tree_bend = 0.9;
+const float k_tree_wind = 20.0;  // m/s: half of that
+
+// Of an arc as long as it is high, its top inclined by `pull`, radians.
+vec3 arc_at(vec2 pull, float up) {
+  float angle = max(length(pull), 1.0e-3);
+  float half_turn = 0.5 * angle * up;
+  float chord = 2.0 * sin(half_turn) / angle;
+  return vec3(pull * (chord * sin(half_turn) / angle), chord * cos(half_turn));
+}
+
+// What the wind does to a trunk that inclines by `own` at its top, shares of its height.
+vec3 blown_aside(Object o, vec2 own, float up) {
+  vec2 wind = swaying_wind(object_air(), 0);
+  vec2 pull = own + wind * (k_tree_bend * (1.0 - 0.75 * o.stiffness) / (length(wind) + k_tree_wind));
+  return arc_at(pull, up) - arc_at(own, up);
+}
+#endif
+
 vec3 trunk_at(Object o, float up) {
   vec2 aside = vec2(cos(o.azimuth), sin(o.azimuth)) * (sin(o.lean) * o.height * up * up);
+#if SWARD_WIND
+  vec2 own = vec2(cos(o.azimuth), sin(o.azimuth)) * (2.0 * sin(o.lean));
+  return o.root + vec3(aside, o.height * up) + o.height * blown_aside(o, own, up);
+#else
   return o.root + vec3(aside, o.height * up);
+#endif
 }
 
 Tree this_tree() {
@@ -82,10 +108,33 @@ Cluster3 leaf_cluster(Tree t, uint i) {
   return c;
 }
 
+// Middle of a cluster, relative to the eye.
+vec3 cluster_middle(Tree t, Cluster3 c) {
+#if SWARD_WIND
+  // Each is carried aside as the trunk is at its own height.
+  float bare = t.species.own_a.x;
+  vec2 own = vec2(cos(t.object.azimuth), sin(t.object.azimuth)) * (2.0 * sin(t.object.lean));
+  vec3 carried = blown_aside(t.object, own, mix(bare, 1.0, 0.5 + 0.5 * c.place.z)) -
+                 blown_aside(t.object, own, 0.5 * (1.0 + bare));
+  return t.centre + c.place * t.half_size + t.object.height * carried;
+#else
+  return t.centre + c.place * t.half_size;
+#endif
+}
+
+#if SWARD_WIND
+// A cluster's leaves, turned to and fro by the wind.
+mat2 leaf_flutter(Object o, uint i) {
+  PlantAir air = object_air();
+  float turn = 0.5 * fluttering(air, length(air.wind), own_number(o, 3u * i + 44u));
+  return mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
+}
+#endif
+
 void emit_cluster(Tree t, uint i) {
   Cluster3 c = leaf_cluster(t, i);
   if (c.radius.x <= 0.0) return;
-  vec3 centre = t.centre + c.place * t.half_size;
+  vec3 centre = cluster_middle(t, c);
   vec3 to_eye = normalize(-centre);
   vec3 right = vec3(-to_eye.y, to_eye.x, 0.0);
   // Straight above any direction will do.
@@ -94,10 +143,16 @@ void emit_cluster(Tree t, uint i) {
   vec3 outward = c.place;
   // Light that comes to the cluster through the others: least inside and below.
   float open = clamp(0.30 + 0.62 * length(c.place) + 0.30 * c.place.z, 0.0, 1.0);
+#if SWARD_WIND
+  mat2 flutter = leaf_flutter(t.object, i);
+#endif
   for (int corner = 0; corner < 4; ++corner) {
     vec2 at = vec2(corner & 1, corner >> 1) * 2.0 - 1.0;
     vec3 aside = right * at.x + up * at.y;
     Part part = Part(at, t.cover, float(i), k_part_object - c.leaves, open);
+#if SWARD_WIND
+    at = flutter * at;
+#endif
     vec3 position = centre + right * (at.x * c.radius.x) + up * (at.y * c.radius.y);
     emit(t.object, part, position, 0.9 * outward + 0.55 * aside + 0.45 * to_eye + vec3(0.0, 0.0, 0.15));
   }
@@ -147,7 +202,7 @@ void emit_cluster_shadow(Tree t, uint i, float strength) {
   Cluster3 c = leaf_cluster(t, i);
   if (c.radius.x <= 0.0) return;
   Object o = t.object;
-  vec3 centre = t.centre + c.place * t.half_size;
+  vec3 centre = cluster_middle(t, c);
   ShadowPlane plane = object_shadow_plane(o);
   vec3 hit = cast_shadow(plane, centre);
   GroundPatch g = ground_at(o, hit.xy);

@@ -8,7 +8,7 @@ layout(std140, binding = SWARD_BINDING_FRAME) uniform SwardFrame {
   mat4 eye_from_relative;  // rotation
   mat4 relative_from_clip;
   vec4 viewport;           // width, height, 1/width, 1/height (pixels)
-  vec4 focal;              // focal x, focal y (pixels), zoom, time (s)
+  vec4 focal;              // focal x, focal y (pixels), zoom, time (s) modulo 4096
   vec4 sun_direction;      // to the sun; w: 1 when it has risen, 0 when it has set
   vec4 sun_radiance;       // w: exposure
   vec4 sky_radiance;       // w: 1 when colours are to be encoded

@@ -13,6 +13,13 @@ const float k_dot_px = 4.0;
 const int k_petal_sections = 5;
 // Most that a petal's cup differs from its species'.
 const float k_cup_spread = 0.13;
+#if SWARD_WIND
+// Share of the cup by which a petal beats, of what a leaf would turn by (fluttering(), at most 0.45).
+const float k_petal_flutter = 0.25;
+const float k_cup_room = k_cup_spread + 0.45 * k_petal_flutter;
+#else
+const float k_cup_room = k_cup_spread;
+#endif
 
 // Petals of a head, and its centre's radius.
 float head_petals(SpeciesParams species) { return species.own_c.z; }

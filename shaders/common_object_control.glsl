@@ -9,6 +9,7 @@
 #include "common_shadow_bend.glsl"
 #include "common_visible.glsl"
 #include "common_stance_control.glsl"
+#include "common_air.glsl"
 
 layout(vertices = SWARD_CLUSTER_SIZE) out;
 
@@ -21,6 +22,10 @@ layout(location = 3) out vec4 object_color[];   // ground at the root, linear; a
 layout(location = 4) out vec4 object_self[];    // distance, phase, parts, bend (shadow_bend)
 layout(location = 5) patch out uvec2 object_patch;  // record of the triangle; unused
 layout(location = 6) patch out uint object_slots[(SWARD_CLUSTER_SIZE + 3) / 4];  // invocation of each line, 8 bits each
+#if SWARD_WIND
+layout(location = 14) out vec4 object_blown[];  // wind, sway, cycle
+layout(location = 15) out float object_slow[];  // slow cycle
+#endif
 
 layout(binding = SWARD_BINDING_BASE_MAP) uniform sampler2D sward_base_map;
 
@@ -37,6 +42,11 @@ float size_px(float size, float distance) { return size * frame.focal.y / max(di
 
 void write_object(Triangle triangle, Seedling s, vec2 size) {
   vec3 color = root_color(sward_base_map, s);
+#if SWARD_WIND
+  PlantAir air = air_around(triangle, s);
+  object_blown[gl_InvocationID] = vec4(air.wind, air.sway, air.cycle);
+  object_slow[gl_InvocationID] = air.slow;
+#endif
   s = take_stance(s);
   SpeciesParams species = sward_layer.species[sward_species];
   object_root[gl_InvocationID] = vec4(s.root, size.x);
@@ -58,6 +68,10 @@ bool worth_growing(Seedling s, vec2 widening) {
 
 void grow_line(FertileCluster fertile) {
   object_root[gl_InvocationID] = vec4(0.0);
+#if SWARD_WIND
+  object_blown[gl_InvocationID] = vec4(0.0);
+  object_slow[gl_InvocationID] = 0.0;
+#endif
   Triangle triangle = fetch_triangle(fertile.record);
   Seedling s = place_seed(fertile, triangle, uint(gl_InvocationID));
   vec2 widening = object_widening(s.presence.widen);

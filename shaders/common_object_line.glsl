@@ -14,6 +14,13 @@ layout(location = 4) in vec4 object_self[];
 layout(location = 5) patch in uvec2 object_patch;
 layout(location = 6) patch in uint object_slots[(SWARD_CLUSTER_SIZE + 3) / 4];
 
+#if SWARD_WIND
+layout(location = 14) in vec4 object_blown[];
+layout(location = 15) in float object_slow[];
+layout(location = 8) flat out vec4 line_blown;  // wind, sway, cycle
+layout(location = 9) flat out float line_slow;  // slow cycle
+#endif
+
 layout(location = 0) out vec4 line_root;   // relative to the eye; height (m)
 layout(location = 1) out vec4 line_form;   // width (m), stiffness, azimuth, lean
 layout(location = 2) out vec4 line_plane;  // of the ground: unit normal; place along the line, 0..1
@@ -39,4 +46,8 @@ void hand_on() {
   line_map = vec4(ground.zw - root.xy * uv_per_m, smoothstep(0.02, 0.6, distance / sward_layer.layer.reach.x),
                   object_self[i].w);
   line_record = object_patch.x;
+#if SWARD_WIND
+  line_blown = object_blown[i];
+  line_slow = object_slow[i];
+#endif
 }

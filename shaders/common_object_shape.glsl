@@ -8,6 +8,7 @@
 #include "common_shadow_projection.glsl"
 #include "common_hash.glsl"
 #include "common_stance_shape.glsl"
+#include "common_sway.glsl"
 
 layout(location = 0) in vec4 line_root[];   // relative to the eye; height (m)
 layout(location = 1) in vec4 line_form[];   // width (m), stiffness, azimuth, lean
@@ -16,6 +17,10 @@ layout(location = 3) in vec4 line_color[];  // ground at the root; age
 layout(location = 4) in vec4 line_self[];   // distance, phase, own parts, parts drawn
 layout(location = 5) in vec4 line_map[];    // base map coordinates below the eye; melting; bend (shadow_bend)
 layout(location = 6) flat in uint line_record[];
+#if SWARD_WIND
+layout(location = 8) flat in vec4 line_blown[];  // wind, sway, cycle
+layout(location = 9) flat in float line_slow[];  // slow cycle
+#endif
 
 layout(location = 0) out vec4 part_point;        // relative to the eye; height above the ground's plane (m)
 layout(location = 1) out vec4 part_normal;       // not of unit length; a number of the kind
@@ -52,6 +57,14 @@ Object this_object() {
   o.first = min(line_plane[0].w, line_plane[1].w);
   o.second = max(line_plane[0].w, line_plane[1].w);
   return o;
+}
+
+PlantAir object_air() {
+#if SWARD_WIND
+  return PlantAir(line_blown[0].xy, line_blown[0].z, line_blown[0].w, line_slow[0]);
+#else
+  return still_air();
+#endif
 }
 
 // The object's own numbers beyond its traits, 0..1.

@@ -10,6 +10,7 @@
 #include "common_head.glsl"
 #include "common_strip_light.glsl"
 #include "common_stance_shape.glsl"
+#include "common_sway.glsl"
 
 layout(lines, invocations = SWARD_GROWTH_INVOCATIONS) in;
 layout(triangle_strip, max_vertices = 14) out;
@@ -23,6 +24,9 @@ layout(location = 3) in vec4 petal_color[];   // linear; pixels across the head
 layout(location = 4) in vec4 petal_map[];     // base map coordinates below the eye; phase; distance
 layout(location = 5) in vec2 petal_number[];  // of the segment's end; segments of the head
 layout(location = 6) in vec3 petal_root[];    // of the plant, relative to the eye
+#if SWARD_WIND
+layout(location = 8) flat in vec4 petal_air[];  // wind, m/s; sway; cycle; slow cycle
+#endif
 
 layout(location = 0) out vec4 strip_point;        // relative to the eye; radius
 layout(location = 1) out vec4 strip_normal;       // towards the viewer; -1..1 across
@@ -145,6 +149,11 @@ void emit_centre(Head head, vec2 along, vec2 across) {
 // Petals rise by the square of the radius; each by a little of its own.
 void emit_petal(Head head, vec2 along, vec2 across, float own) {
   float cup = head.species.own_b.w + 2.0 * k_cup_spread * (own - 0.5);
+#if SWARD_WIND
+  // Petals beat a little.
+  vec4 blown = petal_air[0];
+  cup += k_petal_flutter * fluttering(PlantAir(vec2(0.0), blown.y, blown.z, blown.w), blown.x, own);
+#endif
   for (int i = 0; i < k_petal_sections; ++i) {
     float radius = petal_radius(head.species, i);
     float wedge = radius * head_wedge(head.species);

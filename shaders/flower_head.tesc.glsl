@@ -10,6 +10,8 @@
 #include "common_head.glsl"
 #include "common_stance_control.glsl"
 #include "kind_flower.glsl"
+#include "common_bend.glsl"
+#include "common_air.glsl"
 
 layout(vertices = SWARD_CLUSTER_SIZE) out;
 
@@ -22,6 +24,9 @@ layout(location = 3) out vec4 head_color[];  // petals', linear; pixels across
 layout(location = 4) out vec4 head_map[];    // base map coordinates below the eye; phase; distance
 layout(location = 5) patch out uint head_slots[(SWARD_CLUSTER_SIZE + 3) / 4];  // plant of each line, 8 bits each
 layout(location = 13) out vec3 head_root[];  // relative to the eye
+#if SWARD_WIND
+layout(location = 14) out vec4 head_air[];  // wind, m/s; sway; cycle; slow cycle
+#endif
 
 vec3 upwards() {
 #if SWARD_ON_MESH
@@ -46,7 +51,7 @@ vec3 petal_linear(SpeciesParams species, uint state, float phase) {
 // How far petals reach below the plane of a head, in radii; `facing`: how far it looks up.
 float lowest_petal(SpeciesParams species, float facing) {
   float cup = species.own_b.w;
-  return facing < 0.0 ? max(cup + k_cup_spread, 0.0) : max(k_cup_spread - cup, 0.0);
+  return facing < 0.0 ? max(cup + k_cup_room, 0.0) : max(k_cup_room - cup, 0.0);
 }
 
 // A head at the ground (freedom 0) lies on it, one a radius above it is free.
@@ -55,13 +60,38 @@ vec3 above_ground(vec3 axis, vec3 normal, float freedom) {
   return normalize(mix(normal, raised, freedom * freedom) + 1.0e-4 * normal);
 }
 
+#if SWARD_WIND
+// The stem as shoot.tese.glsl bends it.
+BladeCurve blown_stem(SpeciesParams species, PlantAir air, Seedling s, Shoot stem, out vec2 azimuth) {
+  vec2 own_way = vec2(cos(stem.azimuth), sin(stem.azimuth));
+  Bend bend = bend_in_wind(own_way, stem.stiffness, stem.lean, swaying_wind(air, 0));
+  azimuth = bend.way;
+  float segments = segment_count(species, sward_layer.layer, s.distance);
+  BladeCurve curve = laid_curve(bent_curve(bend, stem.stiffness, s.ground_normal), own_way, stem.lean, stem.stiffness,
+                                s.ground_normal, segments);
+  curve.scale = unpack_scale(packed_scale(curve.scale));
+  return curve;
+}
+#endif
+
 void write_head(SpeciesParams species, Triangle triangle, Seedling s) {
+#if SWARD_WIND
+  PlantAir air = air_around(triangle, s);
+  head_air[gl_InvocationID] = vec4(length(air.wind), air.sway, air.cycle, air.slow);
+#endif
   s = take_stance(s);
   Shoot stem = kind_shoot(species, s.traits, 0);
-  vec2 azimuth = vec2(cos(stem.azimuth), sin(stem.azimuth));
   vec3 normal = s.ground_normal;
+#if SWARD_WIND
+  vec2 azimuth;
+  BladeCurve curve = blown_stem(species, air, s, stem, azimuth);
+#else
+  vec2 azimuth = vec2(cos(stem.azimuth), sin(stem.azimuth));
   BladeCurve curve = free_curve(stem.stiffness, stem.lean, -dot(normal.xy, azimuth) / normal.z);
+#endif
+#if !SWARD_WIND
   curve.contact = find_contact(curve);
+#endif
   BladePoint end = curve_point(curve, 1.0);
   vec3 tangent = vec3(azimuth * sin(end.inclination), cos(end.inclination));
   vec3 middle = s.root + s.traits.height * s.presence.fade * vec3(azimuth * end.along, end.up);
@@ -86,6 +116,9 @@ void write_head(SpeciesParams species, Triangle triangle, Seedling s) {
 
 void grow_head() {
   head_place[gl_InvocationID] = vec4(0.0);
+#if SWARD_WIND
+  head_air[gl_InvocationID] = vec4(0.0);
+#endif
   FertileCluster fertile = unpack_cluster(cluster_words[0]);
   Triangle triangle = fetch_triangle(fertile.record);
   Seedling s = place_seed(fertile, triangle, uint(gl_InvocationID));

@@ -13,6 +13,10 @@ layout(location = 3) in vec4 head_color[];
 layout(location = 4) in vec4 head_map[];
 layout(location = 5) patch in uint head_slots[(SWARD_CLUSTER_SIZE + 3) / 4];
 layout(location = 13) in vec3 head_root[];
+#if SWARD_WIND
+layout(location = 14) in vec4 head_air[];
+layout(location = 8) flat out vec4 petal_air;
+#endif
 
 layout(location = 0) out vec4 petal_place;
 layout(location = 1) out vec4 petal_axis;
@@ -30,6 +34,9 @@ void main() {
   petal_axis = head_axis[i];
   petal_plane = head_plane[i];
   petal_root = head_root[i];
+#if SWARD_WIND
+  petal_air = head_air[i];
+#endif
   petal_color = head_color[i];
   petal_map = head_map[i];
   petal_number = vec2(gl_TessCoord.x * gl_TessLevelOuter[1], gl_TessLevelOuter[1]);

@@ -9,6 +9,8 @@
 #include "common_shadow_bend.glsl"
 #include "common_worth.glsl"
 #include "common_stance_control.glsl"
+#include "common_bend.glsl"
+#include "common_air.glsl"
 
 layout(vertices = SWARD_CLUSTER_SIZE) out;
 
@@ -20,26 +22,62 @@ layout(location = 2) out vec4 blade_ground[];  // surface normal x, y; base map 
 layout(location = 3) out vec4 blade_color[];   // ground at the root, linear; age
 layout(location = 4) out vec4 blade_self[];    // contact with the ground, phase, distance, bend (shadow_bend)
 layout(location = 5) patch out uint blade_slots[(SWARD_CLUSTER_SIZE + 3) / 4];  // invocation of each line, 8 bits each
+#if SWARD_WIND
+layout(location = 14) out vec2 blade_bend[];  // layer of the table of shapes; factor that keeps the length
+#endif
 
 layout(binding = SWARD_BINDING_BASE_MAP) uniform sampler2D sward_base_map;
 
+float blade_contact(BladeCurve curve) {
+#if SWARD_WIND
+  return curve.contact;
+#else
+  return find_contact(curve);
+#endif
+}
+
+#if SWARD_WIND
+// The curve in the wind; the traits take on its azimuth and lean.
+BladeCurve blown_curve(PlantAir air, inout Seedling s) {
+  vec2 own_way = vec2(cos(s.traits.azimuth), sin(s.traits.azimuth));
+  Bend bend = bend_in_wind(own_way, s.traits.stiffness, s.traits.lean, swaying_wind(air, 0));
+  float own_lean = s.traits.lean;
+  s.traits.azimuth = atan(bend.way.y, bend.way.x);
+  s.traits.lean = bend.lean;
+  float segments = segment_count(sward_layer.species[sward_species], sward_layer.layer, s.distance);
+  BladeCurve curve = laid_curve(bent_curve(bend, s.traits.stiffness, s.ground_normal), own_way, own_lean,
+                                s.traits.stiffness, s.ground_normal, segments);
+  blade_bend[gl_InvocationID] = vec2(curve.layer, curve.scale);
+  return curve;
+}
+#endif
+
 void write_blade(Triangle triangle, Seedling s) {
   vec3 color = root_color(sward_base_map, s);
+#if SWARD_WIND
+  PlantAir air = air_around(triangle, s);
+  s = take_stance(s);
+  BladeCurve curve = blown_curve(air, s);
+#else
   s = take_stance(s);
   vec2 azimuth = vec2(cos(s.traits.azimuth), sin(s.traits.azimuth));
   float slope = -dot(s.ground_normal.xy, azimuth) / s.ground_normal.z;
   BladeCurve curve = free_curve(s.traits.stiffness, s.traits.lean, slope);
+#endif
   float half_width = 0.5 * s.traits.width * s.presence.grow * s.presence.widen;
   blade_root[gl_InvocationID] = vec4(s.root, s.traits.height * s.presence.fade);
   blade_form[gl_InvocationID] = vec4(half_width, s.traits.stiffness, s.traits.azimuth, s.traits.lean);
   blade_ground[gl_InvocationID] = vec4(s.ground_normal.xy, s.map_uv);
   blade_color[gl_InvocationID] = vec4(color, s.traits.age);
-  blade_self[gl_InvocationID] = vec4(find_contact(curve), s.traits.phase, s.distance,
+  blade_self[gl_InvocationID] = vec4(blade_contact(curve), s.traits.phase, s.distance,
                                       shadow_bend(triangle, s, sward_layer.species[sward_species].size.y));
 }
 
 void grow_line() {
   blade_root[gl_InvocationID] = vec4(0.0);
+#if SWARD_WIND
+  blade_bend[gl_InvocationID] = vec2(0.0);
+#endif
   FertileCluster fertile = unpack_cluster(cluster_words[0]);
   Triangle triangle = fetch_triangle(fertile.record);
   Seedling s = place_seed(fertile, triangle, uint(gl_InvocationID));

@@ -16,6 +16,9 @@ layout(location = 1) in vec4 blade_form[];
 layout(location = 2) in vec4 blade_ground[];
 layout(location = 3) in vec4 blade_color[];
 layout(location = 4) in vec4 blade_self[];
+#if SWARD_WIND
+layout(location = 14) in vec2 blade_bend[];
+#endif
 layout(location = 5) patch in uint blade_slots[(SWARD_CLUSTER_SIZE + 3) / 4];
 
 layout(location = 0) out vec4 line_point;    // relative to the eye; arc length 0..1
@@ -45,6 +48,10 @@ void main() {
   vec2 azimuth = vec2(cos(form.z), sin(form.z));
   BladeCurve curve = free_curve(form.y, form.w, -dot(normal.xy, azimuth) / normal.z);
   curve.contact = blade_self[i].x;
+#if SWARD_WIND
+  curve.layer = blade_bend[i].x;
+  curve.scale = blade_bend[i].y;
+#endif
   float s = gl_TessCoord.x;
   BladePoint p = curve_point(curve, s);
 

@@ -8,6 +8,7 @@ layout(triangle_strip, max_vertices = 8) out;
 
 #include "common_object_shape.glsl"
 #include "common_blade.glsl"
+#include "common_bend.glsl"
 
 layout(location = 0) uniform int sward_species;
 
@@ -16,7 +17,27 @@ struct Frond {
   vec3 way;         // level, unit, away from the plant's middle
   vec3 flat_side;   // level, unit, across
   float reach, half_width;
+  float flutter;    // turn about the midrib at the tip, radians
 };
+
+#if SWARD_WIND
+// What a rosette's leaves, held close together at their feet, feel of the wind.
+const float k_frond_share = 0.7;
+
+// Bends a leaf in the wind; its blade turns about the midrib, faster than the plant sways.
+Frond blown_frond(Object o, Frond f, float lean) {
+  uint i = uint(gl_InvocationID);
+  PlantAir air = object_air();
+  vec2 wind = k_frond_share * swaying_wind(air, int(i));
+  Bend bend = bend_in_wind(f.way.xy, o.stiffness, lean, wind);
+  f.way = vec3(bend.way, 0.0);
+  f.flat_side = vec3(-f.way.y, f.way.x, 0.0);
+  f.curve = bent_curve(bend, o.stiffness, vec3(0.0, 0.0, 1.0));
+  f.curve.scale = length_kept(f.curve, clamp(o.parts, 1.0, float(SWARD_BLADE_ROWS - 1)));
+  f.flutter = fluttering(air, length(wind), own_number(o, 2u * i + 50u));
+  return f;
+}
+#endif
 
 Frond this_frond(Object o, float count) {
   uint i = uint(gl_InvocationID);
@@ -31,6 +52,10 @@ Frond this_frond(Object o, float count) {
   f.curve = free_curve(o.stiffness, lean, 0.0);
   f.reach = o.height * size;
   f.half_width = 0.5 * o.width * size;
+  f.flutter = 0.0;
+#if SWARD_WIND
+  f = blown_frond(o, f, lean);
+#endif
   return f;
 }
 
@@ -66,6 +91,12 @@ void emit_leaf(Object o, Frond f, Section a, Section b) {
     vec3 half_way = normalize(normalize(-at.middle) + from_world(frame.sun_direction.xyz));
     vec3 normal = cross(at.tangent, f.flat_side);
     normal *= normal.z < 0.0 ? -1.0 : 1.0;
+#if SWARD_WIND
+    float turn = f.flutter * at.along;
+    vec3 level = side;
+    side = level * cos(turn) + normal * sin(turn);
+    normal = normal * cos(turn) - level * sin(turn);
+#endif
     for (int edge = -1; edge < 2; edge += 2) {
       Part part = Part(vec2(float(edge), at.along), 1.0 / inflation(size), float(gl_InvocationID), k_part_object,
                        dot(normalize(at.tangent), half_way));

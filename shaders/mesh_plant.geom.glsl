@@ -9,6 +9,7 @@ layout(triangle_strip, max_vertices = 24) out;
 
 #include "common_object_shape.glsl"
 #include "common_blade.glsl"
+#include "common_bend.glsl"
 #include "common_mesh_plant.glsl"
 
 layout(location = 0) uniform int sward_species;
@@ -37,8 +38,16 @@ Bent this_bent() {
   Object o = b.object;
   b.curve = free_curve(o.stiffness, o.lean, 0.0);
   b.way = vec3(cos(o.azimuth), sin(o.azimuth), 0.0);
-  b.aside = vec3(-b.way.y, b.way.x, 0.0);
   float turn = 6.2831853 * own_number(o, 1u);
+#if SWARD_WIND
+  Bend bend = bend_in_wind(b.way.xy, o.stiffness, o.lean, swaying_wind(object_air(), 0));
+  // The plane of bending turns, the plant does not.
+  turn -= atan(b.way.x * bend.way.y - b.way.y * bend.way.x, dot(b.way.xy, bend.way));
+  b.way = vec3(bend.way, 0.0);
+  b.curve = free_curve(o.stiffness, bend.lean, 0.0);
+  b.curve.layer = bend.layer;
+#endif
+  b.aside = vec3(-b.way.y, b.way.x, 0.0);
   b.turn = mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
   return b;
 }

@@ -7,6 +7,8 @@
 #include "common_outline.glsl"
 #include "common_stance_line.glsl"
 #include "plant_kind.glsl"
+#include "common_sway.glsl"
+#include "common_bend.glsl"
 
 layout(isolines, fractional_odd_spacing) in;
 
@@ -21,6 +23,11 @@ layout(location = 4) in vec4 plant_self[];
 layout(location = 5) in uvec4 plant_words[];
 layout(location = 6) patch in uvec4 shoot_slots[4];
 layout(location = 10) patch in int shoot_first;
+#if SWARD_WIND
+layout(location = 14) in vec4 plant_blown[];
+layout(location = 15) in float plant_slow[];
+layout(location = 16) in uvec3 plant_scales[];
+#endif
 
 layout(location = 0) out vec4 line_point;    // relative to the eye; arc length 0..1
 layout(location = 1) out vec4 line_tangent;  // unit; half width
@@ -50,6 +57,22 @@ float drawn_outline(SpeciesParams species, int index, float s) {
   return kind_outline(species, index, s) * outline_kept(foot, tip, mean, gl_TessLevelOuter[1]);
 }
 
+// The shoot's curve without its contact; it takes on the azimuth that the wind gives it.
+BladeCurve shoot_curve(int plant, int index, vec3 normal, inout Shoot shoot) {
+  vec2 azimuth = vec2(cos(shoot.azimuth), sin(shoot.azimuth));
+#if SWARD_WIND
+  vec4 blown = plant_blown[plant];
+  PlantAir air = PlantAir(blown.xy, blown.z, blown.w, plant_slow[plant]);
+  Bend bend = bend_in_wind(azimuth, shoot.stiffness, shoot.lean, swaying_wind(air, index));
+  shoot.azimuth = atan(bend.way.y, bend.way.x);
+  BladeCurve curve = bent_curve(bend, shoot.stiffness, normal);
+  curve.scale = unpack_scale(plant_scales[plant][index / 4] >> uint(8 * (index % 4)) & 255u);
+  return curve;
+#else
+  return free_curve(shoot.stiffness, shoot.lean, -dot(normal.xy, azimuth) / normal.z);
+#endif
+}
+
 void main() {
   uint line = uint(gl_TessCoord.y * gl_TessLevelOuter[0] + 0.5);
   uint code = shoot_slots[line / 16u][(line / 4u) % 4u] >> (8u * (line % 4u)) & 255u;
@@ -64,8 +87,8 @@ void main() {
   vec3 root = plant_root[plant].xyz;
   vec3 normal = vec3(ground.xy, sqrt(max(1.0 - dot(ground.xy, ground.xy), 1.0e-4)));
   vec3 foot = root + vec3(shoot.foot, -dot(normal.xy, shoot.foot) / normal.z);
+  BladeCurve curve = shoot_curve(plant, index, normal, shoot);
   vec2 azimuth = vec2(cos(shoot.azimuth), sin(shoot.azimuth));
-  BladeCurve curve = free_curve(shoot.stiffness, shoot.lean, -dot(normal.xy, azimuth) / normal.z);
   curve.contact = shoot_contact(plant, index);
   float s = gl_TessCoord.x;
   BladePoint p = curve_point(curve, s);

@@ -58,7 +58,7 @@ class GlTest : public ::testing::Test {
 /// Named values of the state that any sward entry point may touch.
 using GlState = std::map<std::string, std::vector<double>>;
 
-inline constexpr GLuint k_probed_units = 16;
+inline constexpr GLuint k_probed_units = 18;
 
 inline GlState capture_state() {
   GlState state;

@@ -414,6 +414,7 @@ TEST(KindsShaders, AreStrictGlsl) {
     defines.push_back({name, "8"});
   defines.push_back({"SWARD_GROWTH_INVOCATIONS", "2"});
   defines.push_back({"SWARD_ON_MESH", "0"});
+  defines.push_back({"SWARD_WIND", "0"});
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   for (const std::string kind : {"gravel", "leaf", "fern", "litter", "billboard"}) {
     for (const std::string stage : {"tesc", "tese", "geom", "frag"}) {

@@ -92,7 +92,7 @@ class Patch {
     triangles_ = std::move(triangles);
     measure_screen();
     seed(layer_, view_, map_, triangles_, seeding_, &exclusions);
-    frame_.upload(view_, lighting, 0, samples);
+    frame_.upload(view_, lighting, time_s, samples);
     const auto uploaded = renderer_->upload(seeding_, triangles_, view_);
     EXPECT_TRUE(uploaded) << uploaded.error().message;
   }
@@ -124,6 +124,7 @@ class Patch {
   gl::Lighting lighting;
   int samples = 1;
   int level = 8;  ///< Of the triangles: 2 * 2^level of them.
+  double time_s = 0;
 
  private:
   /// Projected areas, for the law that asks for them; everything here lies before the near plane or far off the screen.

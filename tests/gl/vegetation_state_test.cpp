@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 // What the vegetation renderer's entry points leave behind, in a context whose state is poisoned.
+#include <sward/vegetation/wind_textures.h>
+
 #include "gl/vegetation_fixture.h"
 #include "host/render_target.h"
 
@@ -62,6 +64,16 @@ TEST_F(VegetationState, ClassifyLeavesWhatItSays) {
   EXPECT_GT(patch.renderer().stats(true).clusters_fertile, 0u);
 }
 
+GlState left_by_draw(const gl::Bindings& bindings) {
+  GlState left =
+      left_by_stage(bindings, {bindings.base_map, bindings.base_map_raw, bindings.triangles, bindings.surface,
+                               bindings.exclusions, bindings.placement, bindings.blade_shape, bindings.plant_images,
+                               bindings.plant_mesh, bindings.detail, bindings.detail_slope});
+  left["uniform buffer " + std::to_string(bindings.materials)] = {0};
+  left["patch vertices"] = {1};
+  return left;
+}
+
 void expect_draw_leaves_what_it_says(const Layer& layer, int samples) {
   Patch patch(layer, plain_map(k_side, 8, k_green));
   patch.samples = samples;
@@ -73,14 +85,7 @@ void expect_draw_leaves_what_it_says(const Layer& layer, int samples) {
   const PoisonedState poison;
   const GlState before = capture_state();
   patch.draw();
-  const gl::Bindings& bindings = patch.frame().bindings();
-  GlState left =
-      left_by_stage(bindings, {bindings.base_map, bindings.base_map_raw, bindings.triangles, bindings.surface,
-                               bindings.exclusions, bindings.placement, bindings.blade_shape, bindings.plant_images,
-                               bindings.plant_mesh, bindings.detail, bindings.detail_slope});
-  left["uniform buffer " + std::to_string(bindings.materials)] = {0};
-  left["patch vertices"] = {1};
-  expect_only_changed(before, capture_state(), left);
+  expect_only_changed(before, capture_state(), left_by_draw(patch.frame().bindings()));
   EXPECT_GT(patch.renderer().stats(true).primitives, 0u);
 }
 
@@ -92,6 +97,33 @@ TEST_F(VegetationState, DrawLeavesWhatItSays) {
       layer.species[0].kind = kind;
       expect_draw_leaves_what_it_says(layer, samples);
     }
+  }
+}
+
+TEST_F(VegetationState, DrawInWindLeavesWhatItSays) {
+  for (const PlantKind kind : {PlantKind::blade, PlantKind::flower, PlantKind::fern}) {
+    Layer layer = grass_and_soil();
+    layer.species[0].kind = kind;
+    Patch patch(layer, plain_map(k_side, 8, k_green));
+    auto target = host::RenderTarget::create({32, 24}, 1);
+    auto wind = WindTextures::create();
+    ASSERT_TRUE(target && wind);
+    target->begin();
+    patch.look(k_view);
+    patch.classify(target->framebuffer());
+    const PoisonedState poison;
+    const GlState before = capture_state();
+    ASSERT_TRUE(patch.renderer().set_wind(&*wind));
+    expect_only_changed(before, capture_state(), {});
+    patch.draw();
+    const gl::Bindings& bindings = patch.frame().bindings();
+    GlState left = left_by_draw(bindings);
+    for (const GLuint unit : {bindings.wind_maps, bindings.wind_grid, bindings.wind_painted})
+      for (const char* kind_of_unit : {"texture 2D ", "texture 2D array ", "texture buffer ", "sampler "})
+        left[kind_of_unit + std::to_string(unit)] = {0};
+    left["uniform buffer " + std::to_string(bindings.wind)] = {0};
+    expect_only_changed(before, capture_state(), left);
+    EXPECT_GT(patch.renderer().stats(true).primitives, 0u);
   }
 }
 

@@ -30,6 +30,8 @@ namespace {
 constexpr float k_risen_elevation = 0.05f;
 /// Period of the noise that shaders draw on the ground, metres; eye_noise counts modulo it.
 constexpr double k_noise_period = 1024.0;
+/// Plants sway at whole multiples of its inverse, so that time may start again.
+constexpr double k_time_period_s = 4096.0;
 
 double wrapped(double value, double period) {
   return value - std::floor(value / period) * period;
@@ -50,7 +52,7 @@ FrameUniforms make_frame_uniforms(const View& view, const Lighting& lighting, do
   u.eye_from_relative = glm::mat4(glm::dmat4(view.eye_from_world));
   u.relative_from_clip = glm::mat4(glm::inverse(clip_from_relative));
   u.viewport = glm::vec4(size, 1.0 / size);
-  u.focal = glm::vec4(glm::vec2(focal), float(view.zoom()), float(time_s));
+  u.focal = glm::vec4(glm::vec2(focal), float(view.zoom()), float(wrapped(time_s, k_time_period_s)));
   u.sun_direction = glm::vec4(to_sun, glm::smoothstep(0.0f, k_risen_elevation, elevation));
   u.sun_radiance = glm::vec4(lighting.sun_radiance, lighting.exposure);
   u.sky_radiance = glm::vec4(lighting.sky_radiance, lighting.encode_srgb ? 1.0f : 0.0f);

@@ -14,7 +14,7 @@
 // value its amplitude goes as s = sqrt(1 - k'/k'_c), along which the branch is smooth; Newton's method follows it from
 // s = 1 down.
 
-#include <sward/vegetation/blade_shape.h>
+#include "vegetation/blade_chain.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,11 +27,6 @@ namespace {
 
 constexpr int k_most_segments = 64;
 constexpr double k_pi = std::numbers::pi;
-
-/// Torque of segment j (0-based) about the joints below it, per sine of its inclination.
-double lever(int segments, int j) {
-  return double(segments - j) - 0.5;
-}
 
 /// Largest eigenvalue of A above, by power iteration (A is positive, its eigenvalues lie far apart).
 double critical_k_prime(int segments) {
@@ -53,31 +48,6 @@ double critical_k_prime(int segments) {
   return value;
 }
 
-/// Solves a x = b in place (partial pivoting); x is left in b. False when singular.
-bool solve_linear(std::vector<double>& a, std::vector<double>& b) {
-  const int n = int(b.size());
-  for (int column = 0; column < n; ++column) {
-    int pivot = column;
-    for (int row = column + 1; row < n; ++row) {
-      if (std::abs(a[row * n + column]) > std::abs(a[pivot * n + column])) pivot = row;
-    }
-    if (a[pivot * n + column] == 0.0) return false;
-    std::swap_ranges(a.begin() + pivot * n, a.begin() + (pivot + 1) * n, a.begin() + column * n);
-    std::swap(b[pivot], b[column]);
-    for (int row = column + 1; row < n; ++row) {
-      const double factor = a[row * n + column] / a[column * n + column];
-      if (factor == 0.0) continue;
-      for (int k = column; k < n; ++k) a[row * n + k] -= factor * a[column * n + k];
-      b[row] -= factor * b[column];
-    }
-  }
-  for (int row = n - 1; row >= 0; --row) {
-    for (int k = row + 1; k < n; ++k) b[row] -= a[row * n + k] * b[k];
-    b[row] /= a[row * n + row];
-  }
-  return true;
-}
-
 /// d r_n / d phi_m = sum_{j >= max(n,m)} w_j cos T_j - k' [n = m].
 std::vector<double> jacobian(std::span<const double> phi, double k_prime) {
   const int n = int(phi.size());
@@ -85,7 +55,7 @@ std::vector<double> jacobian(std::span<const double> phi, double k_prime) {
   double inclination = 0.0;
   for (int j = 0; j < n; ++j) {
     inclination += phi[j];
-    tail[j] = lever(n, j) * std::cos(inclination);
+    tail[j] = weight_lever(n, j) * std::cos(inclination);
   }
   for (int j = n - 2; j >= 0; --j) tail[j] += tail[j + 1];
   std::vector<double> matrix(size_t(n) * size_t(n));
@@ -145,7 +115,7 @@ std::vector<double> blade_residual(std::span<const double> phi, double k_prime) 
   double inclination = 0.0;
   for (int j = 0; j < n; ++j) {
     inclination += phi[j];
-    residual[j] = lever(n, j) * std::sin(inclination);
+    residual[j] = weight_lever(n, j) * std::sin(inclination);
   }
   for (int j = n - 2; j >= 0; --j) residual[j] += residual[j + 1];
   for (int j = 0; j < n; ++j) residual[j] -= k_prime * phi[j];
@@ -171,34 +141,6 @@ Expected<std::vector<double>> blade_equilibrium(int segments, double k_prime) {
   return phi;
 }
 
-namespace {
-
-/// Ends of the segments at inclinations T_j, in blade lengths, kept above the ground.
-void lay_out(std::span<const double> phi, BladeShapes& shapes, int column) {
-  const int segments = int(phi.size());
-  const double length = 1.0 / segments;
-  std::vector<double> inclinations(phi.size());
-  std::vector<glm::dvec2> points{glm::dvec2(0.0)};
-  double inclination = 0.0;
-  for (int j = 0; j < segments; ++j) {
-    inclination += phi[j];
-    const glm::dvec2 foot = points.back();
-    // What would end below the ground ends on it, as long as it was.
-    const double rise = std::max(length * std::cos(inclination), -foot.y);
-    const double reach = std::sqrt(length * length - rise * rise);
-    points.push_back({foot.x + reach, foot.y + rise});
-    inclinations[j] = std::atan2(reach, rise);
-  }
-  for (int row = 0; row <= segments; ++row) {
-    const double below = inclinations[std::max(row - 1, 0)];
-    const double above = inclinations[std::min(row, segments - 1)];
-    shapes.texels[row * k_blade_columns + column] =
-        glm::vec4(glm::dvec4(points[row].x, points[row].y, 0.5 * (below + above), 0.0));
-  }
-}
-
-}  // namespace
-
 double blade_k_prime(double stiffness) {
   static const double critical = critical_k_prime(k_blade_rows - 1);
   // s = sqrt(1 - k'/k'_c) falls evenly: the tip's deflection goes as s for stiff blades, so that equal steps of
@@ -216,7 +158,8 @@ Expected<BladeShapes> make_blade_shapes() {
     const double stiffness = double(column) / double(k_blade_columns - 1);
     const auto phi = blade_equilibrium(k_blade_rows - 1, blade_k_prime(stiffness));
     if (!phi) return tl::unexpected(phi.error());
-    lay_out(*phi, shapes, column);
+    const std::vector<glm::vec4> rows = lay_out(*phi);
+    for (size_t row = 0; row < rows.size(); ++row) shapes.texels[row * k_blade_columns + size_t(column)] = rows[row];
   }
   return shapes;
 }

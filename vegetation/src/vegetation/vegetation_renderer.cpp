@@ -20,6 +20,8 @@ constexpr size_t k_query_frames = 3;
 
 struct VegetationRenderer::Impl {
   Layer layer;
+  gl::ShaderLibrary shaders;
+  const WindTextures* wind = nullptr;
   gl::Bindings bindings;
   ClassificationStage classification;
   GrowthStage growth;
@@ -80,6 +82,7 @@ Expected<VegetationRenderer> VegetationRenderer::create(const Layer& layer, cons
   const size_t streams = classification->places().size();
   return VegetationRenderer(std::make_unique<Impl>(
       Impl{.layer = layer,
+           .shaders = shaders,
            .bindings = bindings,
            .classification = std::move(*classification),
            .growth = std::move(*growth),
@@ -159,8 +162,17 @@ void VegetationRenderer::draw(const gl::Frame& frame, const gl::GroundTextures& 
   StageQueries& queries = self.queries[self.query_frame];
   const std::vector<uint32_t> fertile = self.growth.needs_counts() ? queries.fertile() : std::vector<uint32_t>();
   queries.begin_growth();
-  self.growth.run(self.inputs(frame, ground), self.classification, fertile);
+  self.growth.run(self.inputs(frame, ground), self.classification, fertile, self.wind);
   queries.end_growth();
+}
+
+Expected<void> VegetationRenderer::set_wind(const WindTextures* wind) {
+  Impl& self = *impl_;
+  if (wind != nullptr) {
+    if (auto built = self.growth.build_wind(self.layer, self.shaders, self.bindings); !built) return built;
+  }
+  self.wind = wind;
+  return {};
 }
 
 void VegetationRenderer::set_season(float season) {

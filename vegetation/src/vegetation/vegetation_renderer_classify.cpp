@@ -50,7 +50,7 @@ int shoots_per_patch(const Layer& layer) {
   return std::min(k_most_lines / layer.cluster_size, k_most_shoots);
 }
 
-std::vector<gl::Define> layer_defines(const Layer& layer, const gl::Bindings& bindings) {
+std::vector<gl::Define> layer_defines(const Layer& layer, const gl::Bindings& bindings, bool wind) {
   std::vector<gl::Define> defines = gl::binding_defines(bindings);
   defines.push_back({"SWARD_CLUSTER_SIZE", std::to_string(layer.cluster_size)});
   defines.push_back({"SWARD_BLADE_COLUMNS", std::to_string(k_blade_columns)});
@@ -60,6 +60,9 @@ std::vector<gl::Define> layer_defines(const Layer& layer, const gl::Bindings& bi
   // The second invocation of the geometry shader is the shadow.
   defines.push_back({"SWARD_GROWTH_INVOCATIONS", layer.shadows && !layer.on_mesh ? "2" : "1"});
   defines.push_back({"SWARD_ON_MESH", layer.on_mesh ? "1" : "0"});
+  defines.push_back({"SWARD_WIND", wind ? "1" : "0"});
+  defines.push_back({"SWARD_WIND_LAYERS", std::to_string(k_wind_layers)});
+  defines.push_back({"SWARD_CALM_LAYER", std::to_string(k_calm_layer)});
   return defines;
 }
 

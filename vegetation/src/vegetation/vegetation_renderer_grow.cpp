@@ -7,12 +7,14 @@
 
 #include "vegetation/plant_mesh.h"
 #include "vegetation/vegetation_renderer_stages.h"
+#include "vegetation/wind_bindings.h"
 
 namespace sward {
 
 namespace {
 
 constexpr GLint k_species_location = 0;
+constexpr GLint k_heights_location = 2;  // of programs in wind
 
 /// A program that draws a kind of plant. A kind may have several rows, drawn in this order; a further kind is a further
 /// row.
@@ -26,6 +28,7 @@ struct KindProgram {
   int (*shoots)(const Species& species) = nullptr;
   /// Points that the tessellator makes of one line; nullptr: by segments.
   int (*points)(const Species& species) = nullptr;
+  bool moves = true;  ///< In the wind.
 };
 constexpr std::array<KindProgram, 11> k_kinds{{
     {PlantKind::blade, "grass_blade", "grow.vert.glsl", "grass_blade.tesc.glsl", "grass_blade.tese.glsl",
@@ -40,11 +43,11 @@ constexpr std::array<KindProgram, 11> k_kinds{{
     {PlantKind::custom, "custom", "shoot.vert.glsl", "shoot.tesc.glsl", "shoot.tese.glsl", "grass_blade.geom.glsl",
      "grass_blade.frag.glsl", true, nullptr, [](const Species& s) { return s.custom.shoots; }},
     {PlantKind::gravel, "gravel", "grow.vert.glsl", "gravel.tesc.glsl", "gravel.tese.glsl", "gravel.geom.glsl",
-     "gravel.frag.glsl"},
+     "gravel.frag.glsl", false, nullptr, nullptr, nullptr, false},
     {PlantKind::leaf, "leaf", "grow.vert.glsl", "leaf.tesc.glsl", "leaf.tese.glsl", "leaf.geom.glsl", "leaf.frag.glsl"},
     {PlantKind::fern, "fern", "grow.vert.glsl", "leaf.tesc.glsl", "leaf.tese.glsl", "leaf.geom.glsl", "fern.frag.glsl"},
     {PlantKind::litter, "litter", "grow.vert.glsl", "litter.tesc.glsl", "litter.tese.glsl", "litter.geom.glsl",
-     "litter.frag.glsl"},
+     "litter.frag.glsl", false, nullptr, nullptr, nullptr, false},
     {PlantKind::billboard, "billboard", "grow.vert.glsl", "billboard.tesc.glsl", "billboard.tese.glsl",
      "billboard.geom.glsl", "billboard.frag.glsl"},
     {PlantKind::mesh, "mesh_plant", "grow.vert.glsl", "mesh_plant.tesc.glsl", "mesh_plant.tese.glsl",
@@ -58,11 +61,13 @@ std::string functions_of(const KindProgram& kind, const Species& species) {
   return kind.of_shoots ? species.custom.functions : std::string();
 }
 
-Expected<gl::Program> build_program(const KindProgram& kind, const std::string& functions, const Layer& layer,
-                                    const gl::ShaderLibrary& shaders, const gl::Bindings& bindings) {
+Expected<gl::Program> build_program(const KindProgram& kind, const std::string& functions, bool wind,
+                                    const Layer& layer, const gl::ShaderLibrary& shaders,
+                                    const gl::Bindings& bindings) {
   gl::ShaderLibrary library = shaders;
+  if (wind) library.add_source("plant_wind.glsl", "#include \"common_wind.glsl\"\n");
   if (!functions.empty()) library.add_source("plant_kind.glsl", "#include \"" + functions + "\"\n");
-  std::vector<gl::Define> defines = layer_defines(layer, bindings);
+  std::vector<gl::Define> defines = layer_defines(layer, bindings, wind);
   // A host's functions may change colour within a segment.
   defines.push_back({"SWARD_LIT_AT_VERTICES", kind.kind == PlantKind::custom ? "0" : "1"});
   return library.build({.name = kind.name,
@@ -76,8 +81,8 @@ Expected<gl::Program> build_program(const KindProgram& kind, const std::string& 
 }
 
 /// A buffer texture, so that no pixel-store state of the host meddles with it.
-void attach_shapes(const BladeShapes& shapes, gl::Buffer& buffer, gl::Texture& texture) {
-  buffer = make_buffer(shapes.texels.size() * sizeof(glm::vec4), shapes.texels.data(), 0);
+void attach_shapes(const std::vector<glm::vec4>& texels, gl::Buffer& buffer, gl::Texture& texture) {
+  buffer = make_buffer(texels.size() * sizeof(glm::vec4), texels.data(), 0);
   texture = gl::create_texture(GL_TEXTURE_BUFFER);
   glTextureBuffer(texture.id(), GL_RGBA32F, buffer.id());
 }
@@ -121,7 +126,7 @@ Expected<GrowthStage> GrowthStage::create(const Layer& layer, const gl::ShaderLi
   }
   auto shapes = make_blade_shapes();
   if (!shapes) return tl::unexpected(shapes.error());
-  attach_shapes(*shapes, stage.blade_shape_buffer_, stage.blade_shape_);
+  attach_shapes(shapes->texels, stage.blade_shape_buffer_, stage.blade_shape_);
   stage.image_array_ = PlantImageArray::create(layer);
   for (const Species& species : layer.species) stage.images_.push_back(stage.image_array_.of(species));
   stage.vertex_array_ = make_cluster_array();
@@ -134,18 +139,54 @@ Expected<void> GrowthStage::add_species(const Layer& layer, const Species& speci
   for (const KindProgram& kind : k_kinds) {
     if (kind.kind != species.kind) continue;
     const std::string functions = functions_of(kind, species), name = kind.name + (" " + functions);
-    const size_t row = size_t(std::find(program_names_.begin(), program_names_.end(), name) - program_names_.begin());
-    if (row == programs_.size()) {
-      auto program = build_program(kind, functions, layer, shaders, bindings);
-      if (!program) {
-        return fail("layer '" + layer.name + "': species '" + species.name + "': " + program.error().message);
-      }
-      programs_.push_back(std::move(*program));
-      program_names_.push_back(name);
-    }
+    const auto found =
+        program_row(name, [&] { return build_program(kind, functions, false, layer, shaders, bindings); });
+    if (!found) return fail("layer '" + layer.name + "': species '" + species.name + "': " + found.error().message);
+    const size_t row = *found;
     passes.push_back({row, GLsizei(instances_of(kind, layer, species)), part_of(kind, layer, species),
                       glGetUniformLocation(programs_[row].id(), "sward_images"), add_mesh(species)});
   }
+  return {};
+}
+
+Expected<size_t> GrowthStage::program_row(const std::string& name,
+                                          const std::function<Expected<gl::Program>()>& build) {
+  const size_t row = size_t(std::find(program_names_.begin(), program_names_.end(), name) - program_names_.begin());
+  if (row < programs_.size()) return row;
+  auto program = build();
+  if (!program) return tl::unexpected(program.error());
+  programs_.push_back(std::move(*program));
+  program_names_.push_back(name);
+  return row;
+}
+
+Expected<void> GrowthStage::build_wind_of(const Layer& layer, const Species& species, std::span<Pass> passes,
+                                          const gl::ShaderLibrary& shaders, const gl::Bindings& bindings) {
+  size_t pass = 0;
+  for (const KindProgram& kind : k_kinds) {
+    if (kind.kind != species.kind) continue;
+    Pass& each = passes[pass++];
+    each.blown = each.program;
+    if (!kind.moves) continue;
+    const std::string functions = functions_of(kind, species), name = kind.name + (" in wind " + functions);
+    const auto row = program_row(name, [&] { return build_program(kind, functions, true, layer, shaders, bindings); });
+    if (!row) return fail("layer '" + layer.name + "': species '" + species.name + "': " + row.error().message);
+    each.blown = *row;
+  }
+  return {};
+}
+
+Expected<void> GrowthStage::build_wind(const Layer& layer, const gl::ShaderLibrary& shaders,
+                                       const gl::Bindings& bindings) {
+  if (wind_shape_.id() != 0) return {};
+  for (size_t i = 0; i < layer.species.size(); ++i) {
+    if (auto built = build_wind_of(layer, layer.species[i], passes_[i], shaders, bindings); !built) return built;
+  }
+  const auto shapes = make_wind_shapes();
+  if (!shapes) return tl::unexpected(shapes.error());
+  heights_.clear();
+  for (const Species& species : layer.species) heights_.emplace_back(species.height_m.min, species.height_m.max);
+  attach_shapes(shapes->texels, wind_shape_buffer_, wind_shape_);
   return {};
 }
 
@@ -168,8 +209,9 @@ void GrowthStage::draw(const Pass& pass, const FeedbackPass& feedback, int strea
 }
 
 void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& classified,
-                      std::span<const uint32_t> fertile) {
+                      std::span<const uint32_t> fertile, const WindTextures* wind) {
   const gl::Bindings& units = inputs.bindings;
+  const WindBindings blowing(units, wind);
   const StageBindings bound(units, inputs.frame.buffer(), inputs.species,
                             {{units.base_map, inputs.ground.base_map()},
                              {units.base_map_raw, inputs.placement.map()},
@@ -177,7 +219,7 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
                              {units.surface, inputs.triangles.surface()},
                              {units.exclusions, inputs.triangles.exclusions()},
                              {units.placement, inputs.placement.masks()},
-                             {units.blade_shape, blade_shape_.id()},
+                             {units.blade_shape, wind != nullptr ? wind_shape_.id() : blade_shape_.id()},
                              {units.plant_images, image_array_.texture()},
                              {units.plant_mesh, 0},
                              {units.detail, inputs.ground.detail()},
@@ -191,11 +233,13 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
     const FeedbackPass& pass = classified.pass(place.pass);
     set_stream(vertex_array_, pass.stream(place.stream));
     for (const Pass& each : passes_[size_t(place.species)]) {
-      const GLuint program = programs_[each.program].id();
+      const GLuint program = programs_[wind != nullptr ? each.blown : each.program].id();
       glUseProgram(program);
       if (each.mesh != 0) glBindTextureUnit(units.plant_mesh, each.mesh);
       glProgramUniform1i(program, k_species_location, place.species);
       if (each.images >= 0) glProgramUniform4fv(program, each.images, 1, &images_[size_t(place.species)].x);
+      if (wind != nullptr && each.blown != each.program)
+        glProgramUniform2fv(program, k_heights_location, 1, &heights_[size_t(place.species)].x);
       draw(each, pass, place.stream, draws_in_parts_ ? fertile[i] : 0);
     }
   }

@@ -9,6 +9,8 @@
 #include <sward/gl/shader_library.h>
 #include <sward/vegetation/plants.h>
 #include <sward/vegetation/vegetation_renderer.h>
+#include <sward/vegetation/wind_textures.h>
+#include <functional>
 
 #include "vegetation/placement_textures.h"
 #include "vegetation/plant_image_array.h"
@@ -28,8 +30,8 @@ std::vector<StreamPlace> place_species(const Layer& layer);
 /// Shoots of each plant that a patch can grow, for kinds made of shoots.
 int shoots_per_patch(const Layer& layer);
 
-/// Defines of every program of a layer.
-std::vector<gl::Define> layer_defines(const Layer& layer, const gl::Bindings& bindings);
+/// Defines of every program of a layer; `wind`: of those that grow plants which move.
+std::vector<gl::Define> layer_defines(const Layer& layer, const gl::Bindings& bindings, bool wind = false);
 
 /// Its species, and where each is fed back to. The layer's own parameters are the frame's: classify() writes them.
 SpeciesBlock make_species_block(const Layer& layer);
@@ -103,8 +105,12 @@ class GrowthStage {
                                       const gl::Bindings& bindings);
   /// Whether `run` needs the counts of clusters, which means waiting for classification.
   bool needs_counts() const { return draws_in_parts_; }
-  /// `fertile`: clusters in each of the classification's streams; read only where needs_counts().
-  void run(const StageInputs& inputs, const ClassificationStage& classified, std::span<const uint32_t> fertile);
+  /// `fertile`: clusters in each of the classification's streams; read only where needs_counts(). `wind`: null in still
+  /// air, else after build_wind().
+  void run(const StageInputs& inputs, const ClassificationStage& classified, std::span<const uint32_t> fertile,
+           const WindTextures* wind);
+  /// The programs and the table for plants that move, once; `layer`, `shaders` and `bindings` as created with.
+  Expected<void> build_wind(const Layer& layer, const gl::ShaderLibrary& shaders, const gl::Bindings& bindings);
 
  private:
   /// A draw of a species' stream: a kind may take several.
@@ -114,10 +120,14 @@ class GrowthStage {
     GLsizei part;       ///< Most clusters in a draw, where draws go in parts.
     GLint images;       ///< Location of sward_images; -1: the program reads none.
     GLuint mesh = 0;    ///< Texture of its own mesh, 0: none.
+    size_t blown = 0;   ///< Its program in wind, where that has been built; `program` where nothing of it moves.
   };
   Expected<void> add_species(const Layer& layer, const Species& species, const gl::ShaderLibrary& shaders,
                              const gl::Bindings& bindings);
   GLuint add_mesh(const Species& species);
+  Expected<void> build_wind_of(const Layer& layer, const Species& species, std::span<Pass> passes,
+                               const gl::ShaderLibrary& shaders, const gl::Bindings& bindings);
+  Expected<size_t> program_row(const std::string& name, const std::function<Expected<gl::Program>()>& build);
   void draw(const Pass& pass, const FeedbackPass& feedback, int stream, uint32_t fertile) const;
 
   std::vector<gl::Program> programs_;
@@ -127,6 +137,9 @@ class GrowthStage {
   std::vector<gl::Texture> meshes_;  ///< One a species of kind mesh.
   gl::Buffer blade_shape_buffer_;
   gl::Texture blade_shape_;
+  gl::Buffer wind_shape_buffer_;
+  gl::Texture wind_shape_;          ///< None until build_wind().
+  std::vector<glm::vec2> heights_;  ///< By species: all year, metres.
   PlantImageArray image_array_;
   std::vector<glm::vec4> images_;  ///< By species: sward_images.
   gl::VertexArray vertex_array_;

@@ -35,7 +35,7 @@ struct FrameUniforms {
   glm::mat4 eye_from_relative;   ///< Rotation.
   glm::mat4 relative_from_clip;  ///< For the sky.
   glm::vec4 viewport;            ///< width, height, 1/width, 1/height (pixels).
-  glm::vec4 focal;               ///< focal x, focal y (pixels), zoom, time (s).
+  glm::vec4 focal;               ///< focal x, focal y (pixels), zoom, time (s) modulo 4096.
   glm::vec4 sun_direction;       ///< To the sun, unit; w: 1 when it is above the horizon, falls to 0 as it sets.
   glm::vec4 sun_radiance;        ///< w: exposure.
   glm::vec4 sky_radiance;        ///< w: 1 when colours are to be encoded.

@@ -20,11 +20,12 @@ class Clipmap;
 namespace sward {
 
 class ClipmapSeeder;
+class WindTextures;
 
 struct VegetationStats {
   uint32_t clusters_submitted = 0;  ///< 0 where the GPU has seeded: ClipmapSeeder::stats() tells.
-  uint32_t clusters_fertile = 0;  ///< Fed back. From the GPU's queries of an earlier frame unless waited for.
-  uint64_t primitives = 0;        ///< Triangles rasterised, shadows included (same remark).
+  uint32_t clusters_fertile = 0;    ///< Fed back. From the GPU's queries of an earlier frame unless waited for.
+  uint64_t primitives = 0;          ///< Triangles rasterised, shadows included (same remark).
   /// Runs of growth's fragment shaders (same remark); none where the driver cannot count them
   /// (GL_ARB_pipeline_statistics_query).
   std::optional<uint64_t> fragments;
@@ -56,6 +57,12 @@ class VegetationRenderer {
   /// ones that are to be exchanged smoothly stand in seasons.
   Expected<void> set_values(size_t species, const SeasonValues& values);
 
+  /// What plants bend and sway in from the next draw on; null: still air, as at first, and nothing of this is paid for.
+  /// `wind` must live until it is replaced; what is uploaded to it is seen at once. Its time is the frame's
+  /// (gl::Frame::upload). The first wind builds the programs of plants that move; fails, changing nothing, on a
+  /// shader's error. Plants' ids, places and sizes, and what read_back() gives, do not change. Binds nothing.
+  Expected<void> set_wind(const WindTextures* wind);
+
   /// One upload of a frame's seeding and surface, for the view that they were made for; grows buffers when a frame
   /// needs more than any before. Fails, keeping nothing of the frame, when the device's buffer textures cannot hold it
   /// (GL_MAX_TEXTURE_BUFFER_SIZE; records take 6 texels, surface nodes 1). Binds nothing. The arguments may go away
@@ -78,10 +85,12 @@ class VegetationRenderer {
 
   /// Grows and draws every species, shadows included. Binds: programs, vertex array, uniform buffers frame and species,
   /// texture units base_map, base_map_raw, triangles, surface, exclusions, placement, blade_shape, plant_images,
-  /// plant_mesh, detail, detail_slope and the uniform buffer materials; sets GL_PATCH_VERTICES 1. Leaves: program 0,
+  /// plant_mesh, detail, detail_slope and the uniform buffer materials; sets GL_PATCH_VERTICES 1. With a wind
+  /// (set_wind) also the uniform buffer wind and units wind_maps, wind_grid, wind_painted. Leaves: program 0,
   /// vertex array 0, those units (their samplers too) and bindings 0, patch vertices 1. The host chooses depth test,
-  /// depth mask, culling (must be off), blending (must be off). Thin plants cover some of a pixel's samples: the shaders
-  /// write the mask (frame.samples() must be the target's), alpha is 1. Draws nothing before the first classify.
+  /// depth mask, culling (must be off), blending (must be off). Thin plants cover some of a pixel's samples: the
+  /// shaders write the mask (frame.samples() must be the target's), alpha is 1. Draws nothing before the first
+  /// classify.
   void draw(const gl::Frame& frame, const gl::GroundTextures& ground);
 
   /// Results of the queries of the last classify and draw; `wait` blocks until they are there.
