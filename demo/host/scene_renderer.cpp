@@ -108,6 +108,12 @@ Expected<Programs> build_programs(const std::vector<Layer>& layers, TerrainSourc
   return programs;
 }
 
+Expected<void> set_wind_of(Programs& programs, const WindTextures* wind) {
+  for (VegetationRenderer& layer : programs.vegetation)
+    if (auto set = layer.set_wind(wind); !set) return set;
+  return {};
+}
+
 // Dead air, for scenes without [wind].
 SceneWind dead_air() {
   SceneWind wind;
@@ -126,7 +132,7 @@ namespace {
 // The wind, where the scene has one or the host has asked for it.
 struct Air {
   std::optional<SceneWindReplay> wind;
-  std::optional<WindTextures> textures;  // from the first frame with a wind on
+  std::optional<WindTextures> textures;  // where there is a wind
   std::optional<WindOverlay> arrows;
   bool arrows_on = false;
   double time_s = 0;  // of the last frame
@@ -138,11 +144,6 @@ struct Air {
     if (!wind) return {};
     if (auto valid = view.validate(); !valid) return valid;
     if (auto followed = wind->follow(now_s, eye); !followed) return followed;
-    if (!textures) {
-      auto made = WindTextures::create();
-      if (!made) return tl::unexpected(made.error());
-      textures = std::move(*made);
-    }
     textures->upload(wind->wind(), view.eye);
     return {};
   }
@@ -166,7 +167,10 @@ struct SceneRenderer::Impl {
   Streaming streaming = Streaming::live;
   float sun_azimuth = 0;  // of the last frame
   Air air{};
+  const WindTextures* wind = nullptr;  // what the layers move in
 
+  Expected<void> take_wind();
+  Expected<void> blow(const View& view, double time_s);
   Expected<void> stream(const View& view, SceneFrameStats& stats);
   TerrainSource source() const { return clipmap ? TerrainSource::clipmap : TerrainSource::roam; }
   Expected<void> follow(const View& view, double time_s, SceneFrameStats& stats);
@@ -176,6 +180,24 @@ struct SceneRenderer::Impl {
   Expected<void> draw_vegetation(const View& view, GLuint framebuffer, SceneFrameStats& stats);
   void gather(bool wait, SceneFrameStats& stats);
 };
+
+// Layers move from the moment on that there is a wind.
+Expected<void> SceneRenderer::Impl::take_wind() {
+  if (!air.wind || wind != nullptr) return {};
+  if (!air.textures) {
+    auto made = WindTextures::create();
+    if (!made) return tl::unexpected(made.error());
+    air.textures = std::move(*made);
+  }
+  if (auto set = set_wind_of(programs, &*air.textures); !set) return set;
+  wind = &*air.textures;
+  return {};
+}
+
+Expected<void> SceneRenderer::Impl::blow(const View& view, double time_s) {
+  if (auto taken = take_wind(); !taken) return taken;
+  return air.follow(view, time_s);
+}
 
 Expected<void> SceneRenderer::Impl::stream(const View& view, SceneFrameStats& stats) {
   if (terrain.world() == nullptr) return {};
@@ -305,7 +327,10 @@ Expected<void> SceneRenderer::try_programs(const Scene& scene, const SceneTerrai
   if (!library) return tl::unexpected(library.error());
   auto programs = build_programs(scene.layers, scene.source, terrain, *library, bindings);
   if (!programs) return tl::unexpected(programs.error());
-  return {};
+  if (!scene.wind) return {};
+  const auto wind = WindTextures::create();
+  if (!wind) return tl::unexpected(wind.error());
+  return set_wind_of(*programs, &*wind);
 }
 
 Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTerrain& terrain,
@@ -348,6 +373,7 @@ Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTer
                                              std::move(*frame), std::move(ground), std::move(*cpu), std::move(clipmap),
                                              std::move(*programs), GpuTimer(timed), GpuTimer(timed), GpuTimer(timed)});
   impl->air.wind = std::move(wind);
+  if (auto moved = impl->take_wind(); !moved) return tl::unexpected(moved.error());
   return SceneRenderer(std::move(impl));
 }
 
@@ -357,7 +383,7 @@ Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighti
   SceneFrameStats stats;
   if (auto streamed = self.stream(view, stats); !streamed) return tl::unexpected(streamed.error());
   if (auto followed = self.follow(view, time_s, stats); !followed) return tl::unexpected(followed.error());
-  if (auto blown = self.air.follow(view, time_s); !blown) return tl::unexpected(blown.error());
+  if (auto blown = self.blow(view, time_s); !blown) return tl::unexpected(blown.error());
 
   self.sun_azimuth = lighting.sun_azimuth;
   self.frame.upload(view, lighting, time_s, samples);
@@ -425,6 +451,7 @@ Expected<void> SceneRenderer::set_layer(size_t index, const Layer& layer) {
   SWARD_ASSERT(index < impl_->layers.size(), "set_layer: no layer has this index");
   auto vegetation = build_vegetation(layer, impl_->source(), impl_->shaders, impl_->bindings);
   if (!vegetation) return tl::unexpected(vegetation.error());
+  if (auto set = vegetation->set_wind(impl_->wind); !set) return set;
   if (impl_->clipmap) {
     const SceneTerrain& terrain = impl_->terrain;
     auto seeder = ClipmapSeeder::create(layer, terrain.surface(), terrain.colors(), impl_->shaders, impl_->bindings);
@@ -453,6 +480,7 @@ Expected<void> SceneRenderer::reload(const gl::ShaderLibrary& shaders) {
   if (!library) return tl::unexpected(library.error());
   auto programs = build_programs(impl_->layers, impl_->source(), impl_->terrain, *library, impl_->bindings);
   if (!programs) return tl::unexpected(programs.error());
+  if (auto set = set_wind_of(*programs, impl_->wind); !set) return set;
   impl_->programs = std::move(*programs);
   impl_->shaders = std::move(*library);
   return {};
