@@ -12,7 +12,7 @@ struct SpeciesParams {
   vec4 tint;        // rgb; mean share of the age tint
   vec4 age_tint;    // rgb; brightness at the root
   vec4 optics;      // translucency, attenuation, specular, shininess
-  vec4 kind;        // 1: grows, 0: bare; 1: forbids; most segments; unused
+  vec4 kind;        // 1: grows, 0: bare; 1: forbids, or -1 .. 0 (yields); most segments; stream
   vec4 own_a;       // what only the species' kind reads: common_kinds.glsl; a host's kind finds its parameters here
   vec4 own_b;
   vec4 own_c;

@@ -8,6 +8,7 @@
 #include "common_frame.glsl"
 #include "common_noise.glsl"
 #include "common_splat.glsl"
+#include "common_disturbance.glsl"
 
 struct GroundDetail {
   float shade;   // factor on brightness, around 1
@@ -118,10 +119,11 @@ vec3 base_color(sampler2D base_map, vec2 uv, GroundDetail detail) {
 vec3 ground_albedo(sampler2D base_map, vec2 uv, inout GroundDetail detail) {
   vec3 base = base_color(base_map, uv, detail);
   vec3 color = octaves_albedo(base, detail);
-  return has_materials() ? color * material_shade(base, detail) : color;
+  if (has_materials()) color *= material_shade(base, detail);
+  return ground_is_disturbed() ? disturbed_color(color, disturbed_here(detail.point)) : color;
 }
 
-// For plants, which take on the ground's colour but not its texture.
+// For plants, which take on the ground's colour but not its texture. What has touched it is the caller's to add.
 vec3 ground_albedo(sampler2D base_map, vec2 uv, vec3 relative_position, vec3 normal) {
   GroundDetail detail = octaves_of_ground(relative_position, normal, false);
   return octaves_albedo(base_color(base_map, uv, detail), detail);

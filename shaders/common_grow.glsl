@@ -4,6 +4,8 @@
 // A seed of a fertile cluster, from its numbers to a plant on the drawn surface. GLSL only.
 #include "common_frame.glsl"
 #include "common_ground_color.glsl"
+#include "common_disturbance.glsl"
+#include "common_disturbed_plant.glsl"
 
 layout(location = 0) uniform int sward_species;  // index in the layer of what this program grows
 
@@ -33,6 +35,8 @@ struct Seedling {
   uint rank;
   Presence presence;
   PlantTraits traits;
+  Disturbed disturbed;
+  float left;          // share of its height that cuts and fire have left
 };
 
 // The sun's place moves with the frame, the rest of the layer's parameters with the view.
@@ -82,6 +86,20 @@ float seed_share(FertileCluster fertile, Triangle t, Seedling s) {
   return season_presence(layer, now, classify_site(t, site, fertile.z, true).species >= 0, fertile.turning);
 }
 
+// What has touched the seed's place.
+Seedling disturb_seed(Seedling s) {
+  s.disturbed = undisturbed();
+  s.left = 1.0;
+#if !SWARD_ON_MESH
+  if (!ground_is_disturbed()) return s;
+  float yielding = yields(sward_layer.species[sward_species]);
+  s.disturbed = disturbed_here(s.root);
+  s.left = share_left(s.traits, s.disturbed, yielding);
+  s.traits = disturb_traits(s.traits, s.disturbed, yielding);
+#endif
+  return s;
+}
+
 // Gives a placed seed its traits; where nothing stands, fade comes back 0.
 Seedling grow_seed(FertileCluster fertile, Triangle triangle, Seedling s) {
   float share = seed_share(fertile, triangle, s);
@@ -97,5 +115,5 @@ Seedling grow_seed(FertileCluster fertile, Triangle triangle, Seedling s) {
   s.own_color = surface_color(triangle.texel, triangle.texel_fraction, s.point);
   s.traits = settle_traits(s.traits, triangle_normal(triangle.to_left, triangle.to_right));
 #endif
-  return s;
+  return disturb_seed(s);
 }

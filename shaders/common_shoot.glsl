@@ -18,6 +18,8 @@
 //     plant's age; phase: the plant's own number, 0..1. grass_leaf() (common_leaf.glsl) does it as grass does.
 #include "common_leaf.glsl"
 #include "common_kinds.glsl"
+#include "common_disturbed.glsl"
+#include "common_disturbed_plant.glsl"
 
 struct Shoot {
   float height;     // length, against the plant's height, 0..1
@@ -42,4 +44,17 @@ vec3 unpack_color(float packed_color) {
   vec3 low = encoded / 12.92;
   vec3 high = pow((encoded + 0.055) / 1.055, vec3(2.4));
   return mix(low, high, greaterThan(encoded, vec3(0.04045)));
+}
+
+// A shoot of a plant that is pressed (common_disturbed_plant.glsl) lies with it.
+Shoot lay_shoot(SpeciesParams species, PlantTraits traits, Shoot shoot) {
+  float pressed = pressed_by_lean(species.posture.z, traits.lean);
+  if (pressed <= 0.0) return shoot;
+  float turn = (traits.azimuth - shoot.azimuth) / 6.2831853;
+  turn = (turn - floor(turn + 0.5)) * 6.2831853;
+  // Shoots stay fanned out a little.
+  shoot.azimuth += 0.85 * turn * smoothstep(0.0, 0.5, pressed);
+  shoot.lean = mix(shoot.lean, traits.lean, pressed);
+  shoot.stiffness = mix(shoot.stiffness, traits.stiffness, pressed);
+  return shoot;
 }

@@ -28,6 +28,7 @@ vec3 root_color(sampler2D base_map, Seedling s) {
 #if SWARD_ON_MESH
   return mesh_albedo(s.own_color, s.root);
 #else
-  return ground_albedo(base_map, s.map_uv, s.root, s.ground_normal);
+  vec3 color = ground_albedo(base_map, s.map_uv, s.root, s.ground_normal);
+  return ground_is_disturbed() ? disturbed_color(color, s.disturbed) : color;
 #endif
 }

@@ -80,7 +80,7 @@ void write_head(SpeciesParams species, Triangle triangle, Seedling s) {
   head_air[gl_InvocationID] = vec4(length(air.wind), air.sway, air.cycle, air.slow);
 #endif
   s = take_stance(s);
-  Shoot stem = kind_shoot(species, s.traits, 0);
+  Shoot stem = lay_shoot(species, s.traits, kind_shoot(species, s.traits, 0));
   vec3 normal = s.ground_normal;
 #if SWARD_WIND
   vec2 azimuth;
@@ -98,6 +98,9 @@ void write_head(SpeciesParams species, Triangle triangle, Seedling s) {
 
   // Where plants are fewer their heads are larger, in area as blades are in width.
   float radius = 0.5 * head_diameter(species, s.traits.state) * s.presence.fade * sqrt(s.presence.widen);
+  // A cut or burnt stem has none.
+  radius *= smoothstep(0.6, 0.9, s.left);
+  if (radius <= 0.0) return;
   vec3 axis = head_direction(species, tangent, 6.2831853 * fract(s.traits.phase * 5.618));
   float clearance = dot(normal, middle - s.root);
   float need = radius * (0.1 + lowest_petal(species, dot(axis, normal)));
@@ -109,8 +112,8 @@ void write_head(SpeciesParams species, Triangle triangle, Seedling s) {
   head_axis[gl_InvocationID] = vec4(axis, s.traits.phase * 6.2831853);
   head_plane[gl_InvocationID] = vec4(normal, shadow_bend(triangle, s, species.size.y));
   head_root[gl_InvocationID] = s.root;
-  head_color[gl_InvocationID] =
-      vec4(petal_linear(species, s.traits.state, s.traits.phase), 2.0 * radius * frame.focal.y / distance);
+  vec3 petals = disturbed_color(petal_linear(species, s.traits.state, s.traits.phase), s.disturbed);
+  head_color[gl_InvocationID] = vec4(petals, 2.0 * radius * frame.focal.y / distance);
   head_map[gl_InvocationID] = vec4(s.map_uv - s.root.xy * uv_per_m, s.traits.phase, s.distance);
 }
 

@@ -9,6 +9,8 @@ layout(triangle_strip, max_vertices = 8) out;
 #include "common_object_shape.glsl"
 #include "common_blade.glsl"
 #include "common_bend.glsl"
+#include "common_disturbed.glsl"
+#include "common_disturbed_plant.glsl"
 
 layout(location = 0) uniform int sward_species;
 
@@ -45,16 +47,20 @@ Frond this_frond(Object o, float count) {
   float spread = 6.2831853 / count;
   float turn = o.azimuth + spread * (float(i) + 0.7 * (own_number(o, 2u * i + 8u) - 0.5));
   float size = mix(0.65, 1.0, own_number(o, 2u * i + 9u));
+  // Of a pressed plant the leaves lie on one side, fanned out.
+  float pressed = pressed_by_lean(sward_layer.species[sward_species].posture.z, o.lean);
+  float aside = (o.azimuth - turn) / 6.2831853;
+  turn += 0.7 * 6.2831853 * (aside - floor(aside + 0.5)) * smoothstep(0.0, 0.5, pressed);
   f.way = vec3(cos(turn), sin(turn), 0.0);
   f.flat_side = vec3(-f.way.y, f.way.x, 0.0);
   // The middle ones of a rosette stand, the others spread.
   float lean = sward_layer.species[sward_species].posture.z * mix(0.35, 1.0, own_number(o, 2u * i + 30u));
-  f.curve = free_curve(o.stiffness, lean, 0.0);
+  f.curve = free_curve(o.stiffness, mix(lean, o.lean, pressed), 0.0);
   f.reach = o.height * size;
   f.half_width = 0.5 * o.width * size;
   f.flutter = 0.0;
 #if SWARD_WIND
-  f = blown_frond(o, f, lean);
+  f = blown_frond(o, f, mix(lean, o.lean, pressed));
 #endif
   return f;
 }

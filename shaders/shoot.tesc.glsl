@@ -46,7 +46,7 @@ uvec3 blown_contacts(SpeciesParams species, Seedling s, PlantAir air, float show
   int end = min(int(ceil(shown)), first_shoot() + SWARD_SHOOTS_PER_PATCH);
   float segments = segment_count(species, sward_layer.layer, s.distance);
   for (int i = first_shoot(); i < end; ++i) {
-    Shoot shoot = kind_shoot(species, s.traits, i);
+    Shoot shoot = lay_shoot(species, s.traits, kind_shoot(species, s.traits, i));
     vec2 own_way = vec2(cos(shoot.azimuth), sin(shoot.azimuth));
     Bend bend = bend_in_wind(own_way, shoot.stiffness, shoot.lean, swaying_wind(air, i));
     BladeCurve curve = laid_curve(bent_curve(bend, shoot.stiffness, s.ground_normal), own_way, shoot.lean,
@@ -63,7 +63,7 @@ uvec3 find_contacts(SpeciesParams species, Seedling s, float shown) {
   uvec3 words = uvec3(0u);
   int end = min(int(ceil(shown)), first_shoot() + SWARD_SHOOTS_PER_PATCH);
   for (int i = first_shoot(); i < end; ++i) {
-    Shoot shoot = kind_shoot(species, s.traits, i);
+    Shoot shoot = lay_shoot(species, s.traits, kind_shoot(species, s.traits, i));
     vec2 azimuth = vec2(cos(shoot.azimuth), sin(shoot.azimuth));
     float slope = -dot(s.ground_normal.xy, azimuth) / s.ground_normal.z;
     float contact = find_contact(free_curve(shoot.stiffness, shoot.lean, slope));

@@ -79,7 +79,8 @@ void main() {
   int plant = int(code) / SWARD_SHOOTS_PER_PATCH;
   int index = shoot_first + int(code) % SWARD_SHOOTS_PER_PATCH;
   SpeciesParams species = sward_layer.species[sward_species];
-  Shoot shoot = kind_shoot(species, drawn_traits(plant), index);
+  PlantTraits traits = drawn_traits(plant);
+  Shoot shoot = lay_shoot(species, traits, kind_shoot(species, traits, index));
   // The last shoot of a fraction has that share of its width.
   float shown = clamp(plant_self[plant].x - float(index), 0.0, 1.0);
 

@@ -441,10 +441,11 @@ TEST_F(ClipmapSeeding, ClassifyAndDrawLeaveWhatTheySay) {
                {"patch vertices", {1}},
                {"rasterizer discard", {0}},
                {"draw framebuffer", {double(target->framebuffer())}}};
-  for (const GLuint index : {b.frame, b.species, b.clipmap, b.materials})
+  for (const GLuint index : {b.frame, b.species, b.clipmap, b.materials, b.disturbance})
     left["uniform buffer " + std::to_string(index)] = {0};
-  for (const GLuint unit : {b.base_map, b.base_map_raw, b.triangles, b.surface, b.exclusions, b.placement,
-                            b.blade_shape, b.plant_images, b.plant_mesh, b.detail, b.detail_slope, b.clipmap_heights})
+  for (const GLuint unit :
+       {b.base_map, b.base_map_raw, b.triangles, b.surface, b.exclusions, b.placement, b.blade_shape, b.plant_images,
+        b.plant_mesh, b.detail, b.detail_slope, b.clipmap_heights, b.disturbance_map})
     for (const char* kind : {"texture 2D ", "texture 2D array ", "texture buffer ", "sampler "})
       left[kind + std::to_string(unit)] = {0};
   expect_only_changed(before, capture_state(), left);

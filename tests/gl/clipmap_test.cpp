@@ -224,8 +224,9 @@ TEST_F(ClipmapDraw, DrawLeavesWhatItSays) {
   left["uniform buffer " + std::to_string(bindings.frame)] = {0};
   left["uniform buffer " + std::to_string(bindings.clipmap)] = {0};
   left["uniform buffer " + std::to_string(bindings.materials)] = {0};
+  left["uniform buffer " + std::to_string(bindings.disturbance)] = {0};
   for (const GLuint unit : {bindings.base_map, bindings.slope_map, bindings.detail, bindings.detail_slope,
-                            bindings.clipmap_heights, bindings.clipmap_relief})
+                            bindings.clipmap_heights, bindings.clipmap_relief, bindings.disturbance_map})
     for (const char* kind : {"texture 2D ", "texture 2D array ", "texture buffer ", "sampler "})
       left[kind + std::to_string(unit)] = {0};
   expect_only_changed(before, capture_state(), left);

@@ -20,7 +20,8 @@ inline void sort_plants(std::vector<Plant>& plants) {
 }
 
 /// Classifies what was looked at, reads it back, compares; returns the plants of the GPU, sorted by plant_key.
-inline std::vector<Plant> expect_same_plants(Patch& patch, size_t at_least) {
+/// `height_tolerance`: metres beside a ten-thousandth.
+inline std::vector<Plant> expect_same_plants(Patch& patch, size_t at_least, float height_tolerance = 0) {
   patch.classify();
   std::vector<Plant> gpu = patch.plants_of_gpu(), cpu = patch.plants_of_cpu();
   sort_plants(gpu);
@@ -29,7 +30,7 @@ inline std::vector<Plant> expect_same_plants(Patch& patch, size_t at_least) {
   for (size_t i = 0, j = 0; i < gpu.size() || j < cpu.size();) {
     if (i < gpu.size() && j < cpu.size() && plant_key(gpu[i]) == plant_key(cpu[j])) {
       const Plant &a = gpu[i++], &b = cpu[j++];
-      wrong += glm::length(a.position - b.position) > 1e-3 || std::abs(a.height - b.height) > 1e-4f * b.height ||
+      wrong += glm::length(a.position - b.position) > 1e-3 || std::abs(a.height - b.height) > height_tolerance + 1e-4f * b.height ||
                std::abs(a.score - b.score) > 1e-4f || std::abs(a.fade - b.fade) > 1e-3f;
       ++matched;
       continue;

@@ -105,7 +105,7 @@ class Patch {
     return plants ? std::move(*plants) : std::vector<Plant>{};
   }
   std::vector<Plant> plants_of_cpu() const {
-    return grow_plants(layer_, view_, map_, triangles_, seeding_, lighting.sun_azimuth);
+    return grow_plants(layer_, view_, map_, triangles_, seeding_, lighting.sun_azimuth, disturbance_);
   }
 
   VegetationRenderer& renderer() { return *renderer_; }
@@ -118,6 +118,12 @@ class Patch {
   void set_season(float season) {
     layer_.season = season;
     renderer_->set_season(season);
+  }
+
+  /// Of the twin and of the renderer.
+  void set_disturbance(const Disturbance* disturbance, const gl::DisturbedGround& textures) {
+    disturbance_ = disturbance;
+    ground_->set_disturbed(textures);
   }
 
   Exclusions exclusions;
@@ -154,6 +160,7 @@ class Patch {
   gl::Frame frame_;
   std::optional<gl::GroundTextures> ground_;
   std::unique_ptr<VegetationRenderer> renderer_;
+  const Disturbance* disturbance_ = nullptr;
 };
 
 }  // namespace sward::test

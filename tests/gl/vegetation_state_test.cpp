@@ -68,7 +68,8 @@ GlState left_by_draw(const gl::Bindings& bindings) {
   GlState left =
       left_by_stage(bindings, {bindings.base_map, bindings.base_map_raw, bindings.triangles, bindings.surface,
                                bindings.exclusions, bindings.placement, bindings.blade_shape, bindings.plant_images,
-                               bindings.plant_mesh, bindings.detail, bindings.detail_slope});
+                               bindings.plant_mesh, bindings.detail, bindings.detail_slope, bindings.disturbance_map});
+  left["uniform buffer " + std::to_string(bindings.disturbance)] = {0};
   left["uniform buffer " + std::to_string(bindings.materials)] = {0};
   left["patch vertices"] = {1};
   return left;
@@ -134,7 +135,12 @@ TEST_F(VegetationState, ReadBackLeavesWhatItSays) {
   const PoisonedState poison;
   const GlState before = capture_state();
   EXPECT_FALSE(patch.plants_of_gpu().empty());
-  expect_only_changed(before, capture_state(), left_by_classify(patch.frame().bindings(), 0));
+  const gl::Bindings& bindings = patch.frame().bindings();
+  GlState left = left_by_classify(bindings, 0);
+  left["uniform buffer " + std::to_string(bindings.disturbance)] = {0};
+  for (const char* kind : {"texture 2D ", "texture 2D array ", "texture buffer ", "sampler "})
+    left[kind + std::to_string(bindings.disturbance_map)] = {0};
+  expect_only_changed(before, capture_state(), left);
 }
 
 TEST_F(VegetationState, BindingPointsCanBeMoved) {

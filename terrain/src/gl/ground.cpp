@@ -87,6 +87,9 @@ Expected<GroundTextures> GroundTextures::create(const Lattice& lattice, const Co
   }
   const DefaultUnpack unpack;
   GroundTextures ground(std::move(*slopes));
+  const DisturbanceBlock nothing;
+  ground.undisturbed_ = create_buffer();
+  glNamedBufferStorage(ground.undisturbed_.id(), sizeof nothing, &nothing, 0);
   ground.base_map_ = make_base_map(colors);
   ground.base_map_raw_ = make_raw_view(ground.base_map_.id());
   if (Expected<void> empty = ground.set_materials({}); !empty) return tl::unexpected(empty.error());

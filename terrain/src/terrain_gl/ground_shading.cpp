@@ -55,9 +55,13 @@ GroundShading::GroundShading(const gl::Program& program, const gl::Bindings& bin
   glBindTextureUnit(bindings_.detail, ground.detail());
   glBindTextureUnit(bindings_.detail_slope, ground.detail_slope());
   bind_uniforms(bindings_.materials, ground.materials());
+  bind_uniforms(bindings_.disturbance, ground.disturbed().block);
+  glBindTextureUnit(bindings_.disturbance_map, ground.disturbed().map);
 }
 
 GroundShading::~GroundShading() {
+  glBindTextureUnit(bindings_.disturbance_map, 0);
+  bind_uniforms(bindings_.disturbance, 0);
   bind_uniforms(bindings_.materials, 0);
   glBindTextureUnit(bindings_.detail_slope, 0);
   glBindTextureUnit(bindings_.detail, 0);

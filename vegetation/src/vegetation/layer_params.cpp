@@ -150,6 +150,7 @@ shared::SpeciesParams make_params(const Species& base, const Layer& layer, const
   params.age_tint = {s.age_tint, s.root_shade};
   params.optics = {s.translucency, s.attenuation, s.specular, s.shininess};
   params.kind = {s.kind == PlantKind::none ? 0.0f : 1.0f, s.forbids ? 1.0f : 0.0f, float(s.max_segments), 0.0f};
+  if (s.kind != PlantKind::none) params.kind.y = resistance_of(base) - 1.0f;
   set_own(s, params);
   params.altitude = altitude_rule(s, layer.water_level_m);
   params.slope = {s.slope.min, std::min(s.slope.max, k_no_bound), s.slope_soft, mask_number(masks, s.mask.get())};

@@ -158,6 +158,12 @@ class Grower {
     return season_presence(ground_.layer, now, classify_site(ground_, record_, site, z, true).species >= 0, turning);
   }
 
+  /// What has touched the place makes of the plant.
+  PlantTraits disturbed(const PlantTraits& traits, const SpeciesParams& species, glm::dvec2 place) const {
+    const sward::Disturbed d = ground_.disturbance->at(place, ground_.eye.value_or(place));
+    return disturb_traits(traits, {d.press, d.cut, d.burn, d.wet, d.paint}, yields(species));
+  }
+
   void grow_seed(const Cluster& cluster, const Choice& choice, bool turning, uint32_t rank) {
     const SpeciesParams& species = ground_.species[size_t(choice.species)];
     const vec2 point = seed_point(id_, rank, cluster);
@@ -179,6 +185,7 @@ class Grower {
     plant.species = uint32_t(choice.species);
     plant.position = {triangle_.apex.x + double(offset.x), triangle_.apex.y + double(offset.y),
                       surface_height(triangles_, triangle_, point.x, point.y)};
+    if (ground_.disturbance != nullptr) traits = disturbed(traits, species, glm::dvec2(plant.position));
     plant.height = traits.height;
     plant.width = traits.width;
     plant.stiffness = traits.stiffness;

@@ -4,6 +4,7 @@
 
 // The CPU twin of classification and growth, a triangle at a time.
 #include <sward/vegetation/plants.h>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct PlantGround {
   std::vector<const GrayMap*> masks;
   std::vector<glm::vec2> mask_scales;
   std::span<const glm::vec4> exclusions;  ///< Seeding::exclusions.
+  const Disturbance* disturbance = nullptr;
+  std::optional<glm::dvec2> eye = {};  ///< That the disturbance is drawn around; none: it is next to each plant.
 };
 PlantGround make_mesh_ground(const Layer& layer, const View& view);
 PlantGround make_plant_ground(const Layer& layer, const View& view, const ColorMap& map, float sun_azimuth,

@@ -29,8 +29,12 @@ std::vector<Plant> grow_seeding(const PlantGround& ground, const FixedTriangles&
 }  // namespace
 
 std::vector<Plant> grow_plants(const Layer& layer, const View& view, const ColorMap& map,
-                               const FixedTriangles& triangles, const Seeding& seeding, float sun_azimuth) {
-  return grow_seeding(make_plant_ground(layer, view, map, sun_azimuth, seeding.exclusions), triangles, seeding);
+                               const FixedTriangles& triangles, const Seeding& seeding, float sun_azimuth,
+                               const Disturbance* disturbance) {
+  PlantGround ground = make_plant_ground(layer, view, map, sun_azimuth, seeding.exclusions);
+  ground.disturbance = disturbance;
+  ground.eye = glm::dvec2(view.eye);
+  return grow_seeding(ground, triangles, seeding);
 }
 
 std::vector<Plant> grow_plants(const Layer& layer, const View& view, const FixedTriangles& triangles,

@@ -160,6 +160,7 @@ Expected<std::vector<Plant>> query_plants(const Layer& layer, const Surface& sur
   const RecordMaker maker(layer, map);
   std::vector<Plant> plants;
   PlantGround ground = make_plant_ground(layer, view, map, options.sun_azimuth, {});
+  ground.disturbance = options.disturbance;
   for (size_t i = 0; i < triangles.size(); ++i) {
     TriangleRecord record = maker.make(triangles, i);
     run.assign(1, glm::vec4(0.0f));

@@ -8,6 +8,7 @@
 
 namespace sward::shared {
 
+using glm::atan;
 using glm::clamp;
 using glm::floor;
 using glm::ivec2;
@@ -35,6 +36,8 @@ inline uvec2 mul_wide(uint a, uint b) {
 #include "common_surface.glsl"
 #include "common_kinds.glsl"
 #include "common_seed.glsl"
+#include "common_disturbed.glsl"
+#include "common_disturbed_plant.glsl"
 #undef SWARD_FN
 #undef SWARD_PRECISE
 

@@ -105,6 +105,7 @@ void check_growth(const Species& species, Check& check) {
   check.within("leaves", float(species.leaves), 1.0f, 8.0f);
   check.within("trunk_share", species.trunk_share, 0.0f, 0.9f);
   check.within("taper", species.taper, 0.0f, 1.0f);
+  check.within("resistance", species.resistance.value_or(0.0f), 0.0f, 1.0f);
 }
 
 bool has_outline(PlantKind kind) {
@@ -275,6 +276,13 @@ Expected<void> check_layer(const Layer& layer, const std::string& owner) {
 }
 
 }  // namespace
+
+float resistance_of(const Species& species) {
+  if (species.resistance) return *species.resistance;
+  const PlantKind kind = species.kind;
+  if (kind == PlantKind::gravel || kind == PlantKind::litter || kind == PlantKind::billboard) return 1.0f;
+  return std::clamp((species.height_m.max - 1.5f) / 2.5f, 0.0f, 1.0f);
+}
 
 Expected<void> validate(const Layer& layer) {
   const std::string owner = "layer '" + layer.name + "'";

@@ -133,4 +133,16 @@ StageBindings::~StageBindings() {
   glBindBufferBase(GL_UNIFORM_BUFFER, bindings_.frame, 0);
 }
 
+DisturbedBindings::DisturbedBindings(const gl::Bindings& bindings, const gl::DisturbedGround& disturbed)
+    : bindings_(bindings) {
+  glBindBufferBase(GL_UNIFORM_BUFFER, bindings.disturbance, disturbed.block);
+  glBindTextureUnit(bindings.disturbance_map, disturbed.map);
+  glBindSampler(bindings.disturbance_map, 0);
+}
+
+DisturbedBindings::~DisturbedBindings() {
+  glBindTextureUnit(bindings_.disturbance_map, 0);
+  glBindBufferBase(GL_UNIFORM_BUFFER, bindings_.disturbance, 0);
+}
+
 }  // namespace sward

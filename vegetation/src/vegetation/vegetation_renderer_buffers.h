@@ -4,6 +4,7 @@
 
 // What a VegetationRenderer keeps on the GPU.
 #include <sward/gl/bindings.h>
+#include <sward/gl/disturbed_ground.h>
 #include <sward/gl/handles.h>
 #include <sward/terrain/fixed_triangles.h>
 #include <sward/vegetation/seeding.h>
@@ -116,6 +117,18 @@ class StageBindings {
   std::array<GLuint, 16> units_{};
   size_t count_ = 0;
   bool clipmap_ = false;
+};
+
+/// Binds what has touched the ground and leaves zeros behind.
+class DisturbedBindings {
+ public:
+  DisturbedBindings(const gl::Bindings& bindings, const gl::DisturbedGround& disturbed);
+  ~DisturbedBindings();
+  DisturbedBindings(const DisturbedBindings&) = delete;
+  DisturbedBindings& operator=(const DisturbedBindings&) = delete;
+
+ private:
+  const gl::Bindings& bindings_;
 };
 
 /// A buffer of fixed size without a mapping; `flags` as for glNamedBufferStorage.

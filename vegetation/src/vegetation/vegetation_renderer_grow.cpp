@@ -225,6 +225,7 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
                              {units.detail, inputs.ground.detail()},
                              {units.detail_slope, inputs.ground.detail_slope()}},
                             inputs.triangles.clipmap());
+  const DisturbedBindings disturbed(units, inputs.ground.disturbed());
   glBindBufferBase(GL_UNIFORM_BUFFER, units.materials, inputs.ground.materials());
   glPatchParameteri(GL_PATCH_VERTICES, 1);
   glBindVertexArray(vertex_array_.id());

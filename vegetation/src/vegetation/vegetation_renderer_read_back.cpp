@@ -83,6 +83,7 @@ std::vector<Plant> ReadBackStage::run(const StageInputs& inputs, const Classific
                              {units.exclusions, inputs.triangles.exclusions()},
                              {units.placement, inputs.placement.masks()}},
                             inputs.triangles.clipmap());
+  const DisturbedBindings disturbed(units, inputs.ground.disturbed());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.id());
   glEnable(GL_RASTERIZER_DISCARD);
   glUseProgram(program_.id());

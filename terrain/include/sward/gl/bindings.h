@@ -44,7 +44,7 @@ struct Bindings {
   GLuint wind_maps = 7;         ///< RGBA8 array: gusts and noise that the wind carries along
   GLuint wind_grid = 8;         ///< RG16F: what moves near the viewer adds to the wind, m/s
   GLuint wind_painted = 16;     ///< RG16F: factor on the wind over the terrain
-  GLuint disturbance_map = 17;  ///< RGBA8 array: what has touched the plants around the viewer
+  GLuint disturbance_map = 17;  ///< RGBA16F array: what has touched the plants around the viewer
 };
 
 struct Define;

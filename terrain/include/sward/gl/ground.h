@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/gl/disturbed_ground.h>
 #include <sward/gl/handles.h>
 #include <sward/gl/slope_map.h>
 #include <sward/terrain/color_map.h>
@@ -36,6 +37,14 @@ class GroundTextures {
   /// different texture.
   Expected<void> set_materials(std::span<const GroundMaterial> materials);
 
+  /// What has touched the ground, for terrain and all plants that are drawn with these textures (DisturbanceTextures in
+  /// the vegetation library); {}: nothing, as after creation. The objects must live while anything is drawn.
+  void set_disturbed(const DisturbedGround& disturbed) { disturbed_ = disturbed; }
+  /// Uniform buffer SwardDisturbance, and its texture or 0.
+  DisturbedGround disturbed() const {
+    return disturbed_.block != 0 ? disturbed_ : DisturbedGround{undisturbed_.id(), 0};
+  }
+
   GLuint materials() const { return materials_.id(); }        ///< SwardMaterials, a uniform buffer
   GLuint detail() const { return detail_.id(); }              ///< RGBA8 array, trilinear, repeats
   GLuint detail_slope() const { return detail_slope_.id(); }  ///< RG8_SNORM array, likewise
@@ -55,7 +64,8 @@ class GroundTextures {
 
   SlopeMap slopes_;
   Texture base_map_, base_map_raw_, detail_, detail_slope_;
-  Buffer materials_;
+  Buffer materials_, undisturbed_;
+  DisturbedGround disturbed_;
   glm::dvec2 map_min_{0}, map_size_{1}, data_min_{0}, data_max_{0};
   glm::ivec2 texels_{1};
 };

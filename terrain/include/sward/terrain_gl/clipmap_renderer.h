@@ -17,8 +17,8 @@ class ClipmapRenderer {
 
   /// Draws the blocks of the rings that may be seen into the bound framebuffer with one indexed, instanced draw, after
   /// a follow() for this view. Binds: program, vertex array, uniform buffers bindings.frame, bindings.clipmap, textures
-  /// bindings.base_map, bindings.slope_map, bindings.detail, bindings.detail_slope, the uniform buffer
-  /// bindings.materials, bindings.clipmap_heights, bindings.clipmap_relief (the last two without sampler). Sets:
+  /// bindings.base_map, bindings.slope_map, bindings.detail, bindings.detail_slope,
+  /// bindings.disturbance_map, the uniform buffers bindings.materials, bindings.disturbance, bindings.clipmap_heights, bindings.clipmap_relief (the last two without sampler). Sets:
   /// nothing else; the host chooses as with TerrainRenderer::draw(). Leaves: program 0, vertex array 0, those texture
   /// units, their samplers and those uniform buffer bindings 0. Cost: 16 bytes a block are written, some hundred
   /// blocks.

@@ -21,8 +21,9 @@ class TerrainRenderer {
   size_t upload(const RoamMesh& mesh);
 
   /// Draws the visible leaves into the bound framebuffer with one indexed draw.
-  /// Binds: program, vertex array, uniform buffers bindings.frame, bindings.materials, textures bindings.base_map,
-  /// bindings.slope_map, bindings.detail, bindings.detail_slope.
+  /// Binds: program, vertex array, uniform buffers bindings.frame, bindings.materials,
+  /// bindings.disturbance, textures bindings.base_map, bindings.slope_map, bindings.detail, bindings.detail_slope,
+  /// bindings.disturbance_map.
   /// Sets: nothing else; the host chooses depth test (GL_LESS, GL_LEQUAL or reversed), culling, blending, masks.
   /// Leaves: program 0, vertex array 0, those texture units and uniform buffer bindings 0.
   /// Padding around the data is discarded. `view` must be the one that the frame was filled with.

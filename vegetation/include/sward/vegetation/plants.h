@@ -4,6 +4,7 @@
 
 #include <sward/terrain/color_map.h>
 #include <sward/terrain/surface.h>
+#include <sward/vegetation/disturbance.h>
 #include <sward/vegetation/seeding.h>
 
 namespace sward {
@@ -14,7 +15,8 @@ struct Plant {
   uint32_t rank = 0;
   uint32_t species = 0;    ///< Index in the layer.
   glm::dvec3 position{0};  ///< Root, world, metres; x, y the same in every view, z the drawn surface's.
-  float height = 0, width = 0, stiffness = 0;  ///< Full-grown, before fade and widening; metres, metres, 0..1.
+  float height = 0, width = 0, stiffness = 0;  ///< Full-grown, before fade and widening, as cut, burnt and pressed;
+                                               ///< metres, metres, 0..1. 0 m: cut to the ground.
   float azimuth = 0;                           ///< Direction of bending, radians: 0 east, counter-clockwise.
   float score = 0;                             ///< s' of equation 18.
   float fade = 0;                              ///< 0..1: growing in, sinking.
@@ -24,9 +26,12 @@ struct Plant {
 
 /// All plants with fade > 0 of a seeded layer, in the order bins, triangles, ranks. Needs no GL context. The seeding
 /// must come from the same layer, view, map and triangles. `sun_azimuth`: radians, 0 east, counter-clockwise; only
-/// phototropic species ask for it. Cost: one look at the map a cluster and one a seed that is shown. Any thread.
+/// phototropic species ask for it. `disturbance`: what has touched the ground, as it is drawn around the view's eye;
+/// null: nothing; plants keep ids and places. Cost: one look at the map a cluster and one a seed that is shown. Any
+/// thread, while the disturbance is not touched.
 std::vector<Plant> grow_plants(const Layer& layer, const View& view, const ColorMap& map,
-                               const FixedTriangles& triangles, const Seeding& seeding, float sun_azimuth = 0.0f);
+                               const FixedTriangles& triangles, const Seeding& seeding, float sun_azimuth = 0.0f,
+                               const Disturbance* disturbance = nullptr);
 
 /// The same for a layer on a mesh, whose colours the seeding holds.
 std::vector<Plant> grow_plants(const Layer& layer, const View& view, const FixedTriangles& triangles,
@@ -48,6 +53,7 @@ struct PlantQueryOptions {
   size_t most_plants = 1000000;            ///< More are an error.
   const Exclusions* exclusions = nullptr;  ///< As given to seed().
   float sun_azimuth = 0.0f;                ///< Radians; only phototropic species ask for it.
+  const Disturbance* disturbance = nullptr;  ///< As plants next to the eye have it: what is mown is as high as that.
 };
 
 /// The plants whose roots lie in a region at full density, z from the finest data: exactly those that the GPU draws near

@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -136,6 +137,9 @@ struct Species {
   float attenuation = 0.4f;                 ///< alpha of equation 13, >= 0.
   float specular = 0.12f;                   ///< k_s of equation 14, >= 0.
   float shininess = 24.0f;                  ///< n of equation 14, >= 1.
+  /// Against feet, wheels, blasts and mowers (Disturbance), 0 yields .. 1 stands; empty: by kind and height, see
+  /// resistance_of().
+  std::optional<float> resistance;
 
   PlantMesh mesh;  ///< Read for kind mesh alone.
   TuftShape tuft;  ///< Read for kind tuft alone, the next for flower and custom.
@@ -210,6 +214,10 @@ inline constexpr int k_most_shoots = 12;  ///< Lines of a plant of a kind made o
 inline constexpr int k_most_petal_colors = 4;
 inline constexpr int k_most_parameters = 16;
 inline constexpr int k_most_plant_faces = 512;  ///< Of PlantKind::mesh.
+
+/// What a species resists by: its own value, else 1 for gravel, litter and billboards; other kinds yield up to a largest
+/// height of 1.5 m and stand from 4 m on, linearly in between.
+float resistance_of(const Species& species);
 
 /// Fails naming layer, species, field and range.
 Expected<void> validate(const Layer& layer);

@@ -85,8 +85,9 @@ class VegetationRenderer {
 
   /// Grows and draws every species, shadows included. Binds: programs, vertex array, uniform buffers frame and species,
   /// texture units base_map, base_map_raw, triangles, surface, exclusions, placement, blade_shape, plant_images,
-  /// plant_mesh, detail, detail_slope and the uniform buffer materials; sets GL_PATCH_VERTICES 1. With a wind
-  /// (set_wind) also the uniform buffer wind and units wind_maps, wind_grid, wind_painted. Leaves: program 0,
+  /// plant_mesh, detail, detail_slope, disturbance_map and the uniform buffers materials and disturbance (what has
+  /// touched the ground: GroundTextures::set_disturbed()); sets GL_PATCH_VERTICES 1. With a wind (set_wind) also the
+  /// uniform buffer wind and units wind_maps, wind_grid, wind_painted. Leaves: program 0,
   /// vertex array 0, those units (their samplers too) and bindings 0, patch vertices 1. The host chooses depth test,
   /// depth mask, culling (must be off), blending (must be off). Thin plants cover some of a pixel's samples: the
   /// shaders write the mask (frame.samples() must be the target's), alpha is 1. Draws nothing before the first
@@ -97,7 +98,8 @@ class VegetationRenderer {
   VegetationStats stats(bool wait);
 
   /// The plants of the last classify as the GPU grows them, read back: for tests and `sward plants --gpu`. Slow. Needs
-  /// the seeding that was uploaded, to name triangles; same binding contract as classify.
+  /// the seeding that was uploaded, to name triangles; same binding contract as classify, and disturbance_map and the
+  /// uniform buffer disturbance, left 0.
   Expected<std::vector<Plant>> read_back(const gl::Frame& frame, const gl::GroundTextures& ground, const View& view,
                                          const Seeding& seeding, GLuint restore_framebuffer);
 
