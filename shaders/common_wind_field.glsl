@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 
-// The wind at a place. Read by GLSL (common_wind.glsl) and by C++ (vegetation/src/vegetation/wind_twin.h), each of which
-// defines `sward_wind`, a WindParams, and four lookups, all bilinear:
+// The wind at a place. Read by GLSL (common_wind.glsl) and by C++ (vegetation/src/vegetation/wind_twin.cpp), each of
+// which defines `sward_wind`, a WindParams, and four lookups, all bilinear:
 //   vec2 wind_gust_map(vec2 uv)              two grey maps of gusts, repeating
 //   vec2 wind_noise_map(vec2 uv)             a normal map's x and y, -1..1, repeating
 //   vec2 wind_grid_map(vec2 uv, int level)   what movers do, m/s, repeating: 0 the fine grid, 1 the coarse
@@ -11,9 +11,10 @@
 // Knowles and Fryazinov, "Increasing realism of animated grass in real-time game environments" (2015), section 2: wind
 // is a vector times a scrolling grey map, plus noise from scrolling, rotating normal maps whose strength follows. Here
 // the noise's vectors rotate, not its map: over an unlimited world a rotating map would race at a distance.
-// Bakay, Lalonde and Heidrich, "Real-time animated grass" (2002), section 4: sources, whose wind comes the later the
+// Bakay, Lalonde and Heidrich, "Real-Time Animated Grass" (2002), section 4: sources, whose wind comes the later the
 // farther the place, with waves and attenuation; and an artist's map. Their vector points at the source, ours away.
-// Lee, "Infinite grass" (2010), "Wind Simulation" and "Wind Force": the movers' grid, interpolated between cells.
+// Lee, "Realistic Real-Time Grass Rendering" (2010), "Wind Simulation" and "Wind Force": the movers' grid, interpolated
+// between cells.
 
 SWARD_FN vec2 wind_map_place(vec4 place, vec2 p) {
   return vec2(place.x + place.z * p.x + place.w * p.y, place.y - place.w * p.x + place.z * p.y);

@@ -19,7 +19,7 @@ const int k_wind_sources = 16;
 struct WindParams {
   vec4 mean;                // x, y: m/s; z: gustiness, 0..1; w: 1 when there is wind, else 0
   vec4 ambient;             // x: m/s in calm; y: share of the directional speed; z: sources; w: 1 when painted, else 0
-  vec4 gust_place[2];       // x, y: the eye's place on the map, tiles; z, w: cosine and sine of its turn, times tiles a metre
+  vec4 gust_place[2];       // x, y: the eye's place on the map, tiles; z, w: tiles a metre times its turn's cosine, sine
   vec4 ambient_place[2];    // the same of the noise
   vec4 ambient_turn;        // cosine and sine of what its vectors are turned by: first layer, second layer
   vec4 grid_place[2];       // fine, coarse: the eye's place, tiles; z: tiles a metre; w: 1 when anything moves, else 0

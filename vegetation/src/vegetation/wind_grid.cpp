@@ -1,13 +1,14 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 
-// Lee, "Infinite grass" (2010), "Wind Simulation": a bell curve of acceleration ahead of what moves, Euler steps,
-// damped acceleration, velocity diffused among neighbours, a grid that follows in whole cells. Here steps are fixed and
-// damping is their exact exponential, so that nothing depends on the frame rate; velocity is damped too, which
-// diffusion alone does not bring to rest; and cells stay where they are in memory.
+// Lee, "Realistic Real-Time Grass Rendering" (2010), "Wind Simulation": a bell curve of acceleration ahead of what
+// moves, Euler steps, damped acceleration, velocity diffused among neighbours, a grid that follows in whole cells. Here
+// steps are fixed and damping is their exact exponential, so that nothing depends on the frame rate; velocity is damped
+// too, which diffusion alone does not bring to rest; and cells stay where they are in memory.
 #include "vegetation/wind_grid.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace sward {
@@ -32,6 +33,15 @@ struct Neighbours {
   const glm::vec2 *above, *old, *below;
 };
 
+// Sizes of floats are ordered as their bits are: comparing those keeps the loop below free of branches.
+constexpr int32_t k_size_bits = 0x7FFFFFFF, k_nothing_bits = std::bit_cast<int32_t>(k_nothing);
+
+/// The bits of a speed, 0 where it is next to nothing.
+inline int32_t without_denormals(float speed) {
+  const auto bits = std::bit_cast<int32_t>(speed);
+  return bits & -int32_t((bits & k_size_bits) > k_nothing_bits);
+}
+
 /// Cells `from` up to `to` of a row, as a plain loop over floats, which compilers make wide. Returns whether any moves.
 bool step_cells(const Neighbours& rows, const glm::vec2* force, size_t from, size_t to, float diffusion,
                 glm::vec2* velocity, glm::vec2* acceleration) {
@@ -39,19 +49,18 @@ bool step_cells(const Neighbours& rows, const glm::vec2* force, size_t from, siz
   const float* const push = &force->x;
   float* __restrict const v = &velocity->x, * __restrict const a = &acceleration->x;
   const float keep_a = k_keep_acceleration, keep_v = k_keep_velocity;
-  int any = 0;
+  int32_t most = 0;
   for (size_t i = 2 * from; i < 2 * to; ++i) {
     const float around = 0.25f * (up[i] + down[i] + old[i - 2] + old[i + 2]);
     // In m/s: acceleration times the time in which velocity is damped.
-    float pushed = keep_a * a[i] + (1 - keep_a) * push[i];
-    pushed = std::abs(pushed) > k_nothing ? pushed : 0.0f;
-    float moved = keep_v * (old[i] + diffusion * (around - old[i])) + (1 - keep_v) * pushed;
-    moved = std::abs(moved) > k_nothing ? moved : 0.0f;
-    a[i] = pushed;
-    v[i] = moved;
-    any |= int(std::abs(moved) > k_rest) | int(std::abs(pushed) > k_rest);
+    const int32_t pushed = without_denormals(keep_a * a[i] + (1 - keep_a) * push[i]);
+    a[i] = std::bit_cast<float>(pushed);
+    const float moved = keep_v * (old[i] + diffusion * (around - old[i])) + (1 - keep_v) * std::bit_cast<float>(pushed);
+    const int32_t kept = without_denormals(moved);
+    v[i] = std::bit_cast<float>(kept);
+    most = std::max(most, std::max(kept & k_size_bits, pushed & k_size_bits));
   }
-  return any != 0;
+  return std::bit_cast<float>(most) > k_rest;
 }
 
 }  // namespace
