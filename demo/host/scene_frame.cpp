@@ -85,12 +85,14 @@ void SceneFrame::seed_triangles(const View& view, const ColorMap& colors) {
   }
 }
 
-std::vector<Plant> SceneFrame::plants(const View& view, const ColorMap& colors, float sun_azimuth) const {
+std::vector<Plant> SceneFrame::plants(const View& view, const ColorMap& colors, float sun_azimuth,
+                                      const Disturbance* disturbance) const {
   std::vector<Plant> all;
   for (const LayerFrame& each : layers_) {
     std::vector<Plant> grown = each.mesh
                                    ? grow_plants(each.layer, view, each.triangles, each.seeding)
-                                   : grow_plants(each.layer, view, colors, each.triangles, each.seeding, sun_azimuth);
+                                   : grow_plants(each.layer, view, colors, each.triangles, each.seeding, sun_azimuth,
+                                                 disturbance);
     for (Plant& plant : grown) plant.species += each.first_species;
     all.insert(all.end(), grown.begin(), grown.end());
   }

@@ -51,8 +51,10 @@ class SceneFrame {
   uint32_t cut_triangles(const View& view);
   /// Seeds the cut triangles.
   void seed_triangles(const View& view, const ColorMap& colors);
-  /// The CPU twin's plants of all layers; Plant::species counts on from layer to layer. `sun_azimuth` in radians.
-  std::vector<Plant> plants(const View& view, const ColorMap& colors, float sun_azimuth) const;
+  /// The CPU twin's plants of all layers; Plant::species counts on from layer to layer. `sun_azimuth` in radians;
+  /// `disturbance` as grow_plants() takes it.
+  std::vector<Plant> plants(const View& view, const ColorMap& colors, float sun_azimuth,
+                            const Disturbance* disturbance = nullptr) const;
 
  private:
   explicit SceneFrame(RoamMesh mesh) : mesh_(std::move(mesh)) {}

@@ -168,12 +168,15 @@ struct SceneRenderer::Impl {
   float sun_azimuth = 0;  // of the last frame
   Air air{};
   const WindTextures* wind = nullptr;  // what the layers move in
+  std::optional<DisturbanceReplay> replay = {};
+  std::optional<DisturbanceTextures> disturbed = {};  // from the first touch on
 
   Expected<void> take_wind();
   Expected<void> blow(const View& view, double time_s);
   Expected<void> stream(const View& view, SceneFrameStats& stats);
   TerrainSource source() const { return clipmap ? TerrainSource::clipmap : TerrainSource::roam; }
   Expected<void> follow(const View& view, double time_s, SceneFrameStats& stats);
+  Expected<void> disturb(const View& view, double time_s);
   void draw_terrain(const View& view, SceneFrameStats& stats);
   Expected<void> seed_on_cpu(const View& view, SceneFrameStats& stats);
   Expected<void> seed_on_gpu(const View& view);
@@ -238,6 +241,20 @@ Expected<void> SceneRenderer::Impl::follow(const View& view, double time_s, Scen
     programs.terrain->upload(cpu.mesh());
   }
   stats.cpu_roam_ms = ms_since(begin);
+  return {};
+}
+
+// What has touched the ground by now; nothing is made before the first touch.
+Expected<void> SceneRenderer::Impl::disturb(const View& view, double time_s) {
+  if (auto replayed = replay->advance_to(time_s); !replayed) return replayed;
+  if (replay->disturbance().revision() == 0) return {};
+  if (!disturbed) {
+    auto made = DisturbanceTextures::create();
+    if (!made) return tl::unexpected(made.error());
+    disturbed = std::move(*made);
+    ground.set_disturbed(disturbed->ground());
+  }
+  disturbed->upload(replay->disturbance(), glm::dvec2(view.eye));
   return {};
 }
 
@@ -368,10 +385,13 @@ Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTer
     if (!made) return tl::unexpected(made.error());
     wind = std::move(*made);
   }
+  auto replay = DisturbanceReplay::create(scene);
+  if (!replay) return tl::unexpected(replay.error());
   const bool timed = gpu_can_time();
   auto impl = std::unique_ptr<Impl>(new Impl{terrain, scene.directory, std::move(*library), bindings, scene.layers,
                                              std::move(*frame), std::move(ground), std::move(*cpu), std::move(clipmap),
                                              std::move(*programs), GpuTimer(timed), GpuTimer(timed), GpuTimer(timed)});
+  impl->replay = std::move(*replay);
   impl->air.wind = std::move(wind);
   if (auto moved = impl->take_wind(); !moved) return tl::unexpected(moved.error());
   return SceneRenderer(std::move(impl));
@@ -385,6 +405,7 @@ Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighti
   if (auto followed = self.follow(view, time_s, stats); !followed) return tl::unexpected(followed.error());
   if (auto blown = self.blow(view, time_s); !blown) return tl::unexpected(blown.error());
 
+  if (auto touched = self.disturb(view, time_s); !touched) return tl::unexpected(touched.error());
   self.sun_azimuth = lighting.sun_azimuth;
   self.frame.upload(view, lighting, time_s, samples);
   // Plants first: ground that they hide is not shaded.
@@ -471,6 +492,10 @@ void SceneRenderer::set_season(float season) {
   impl_->cpu.set_season(season);
 }
 
+Disturbance& SceneRenderer::disturbance() {
+  return impl_->replay->disturbance();
+}
+
 Exclusions& SceneRenderer::exclusions() {
   return impl_->cpu.exclusions();
 }
@@ -495,14 +520,15 @@ const std::vector<Layer>& SceneRenderer::layers() const {
 }
 
 std::vector<Plant> SceneRenderer::plants_cpu(const View& view) const {
-  if (!impl_->clipmap) return impl_->cpu.plants(view, impl_->terrain.colors(), impl_->sun_azimuth);
+  const Disturbance* disturbance = &impl_->replay->disturbance();
+  if (!impl_->clipmap) return impl_->cpu.plants(view, impl_->terrain.colors(), impl_->sun_azimuth, disturbance);
   std::vector<Plant> all;
   for (size_t i = 0; i < impl_->programs.seeders.size(); ++i) {
     FixedTriangles triangles;
     Seeding seeding;
     impl_->programs.seeders[i].read_back(view, *impl_->clipmap, triangles, seeding);
-    std::vector<Plant> grown =
-        grow_plants(impl_->layers[i], view, impl_->terrain.colors(), triangles, seeding, impl_->sun_azimuth);
+    std::vector<Plant> grown = grow_plants(impl_->layers[i], view, impl_->terrain.colors(), triangles, seeding,
+                                           impl_->sun_azimuth, disturbance);
     for (Plant& plant : grown) plant.species += impl_->cpu.layers()[i].first_species;
     all.insert(all.end(), grown.begin(), grown.end());
   }

@@ -7,12 +7,14 @@
 #include <sward/terrain_gl/clipmap_renderer.h>
 #include <sward/terrain_gl/terrain_renderer.h>
 #include <sward/vegetation/clipmap_seeding.h>
+#include <sward/vegetation/disturbance_textures.h>
 #include <sward/vegetation/mesh_renderer.h>
 #include <sward/vegetation/vegetation_renderer.h>
 #include <sward/vegetation/wind.h>
 #include <memory>
 #include <optional>
 
+#include "host/disturbance_replay.h"
 #include "host/scene_frame.h"
 #include "host/scene_terrain.h"
 #include "host/sky.h"
@@ -90,6 +92,9 @@ class SceneRenderer {
   void set_season(float season);
   /// Ground on which nothing stands; the next frame follows changes.
   Exclusions& exclusions();
+  /// What has touched the ground: the scene's own, replayed to each frame's time, and whatever the host adds between
+  /// frames (`disturbance().press_capsule(...)`); the next frame shows it. Time passes with draw()'s.
+  Disturbance& disturbance();
   /// Builds every program from `shaders`, then swaps them all in. On an error the old ones stay.
   Expected<void> reload(const gl::ShaderLibrary& shaders);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "host/disturbance_replay.h"
 #include "host/egl_context.h"
 #include "host/render_target.h"
 #include "host/scene_frame.h"
@@ -59,7 +60,10 @@ Expected<std::vector<Plant>> plants_by_cpu(const Scene& scene, const host::Scene
   }
   frame->cut_triangles(path[at].view);
   frame->seed_triangles(path[at].view, terrain.colors());
-  return frame->plants(path[at].view, terrain.colors(), scene.sun_azimuth);
+  auto replay = host::DisturbanceReplay::create(scene);
+  if (!replay) return tl::unexpected(replay.error());
+  if (auto replayed = replay->advance_to(path[at].time_s); !replayed) return tl::unexpected(replayed.error());
+  return frame->plants(path[at].view, terrain.colors(), scene.sun_azimuth, &replay->disturbance());
 }
 
 Expected<std::vector<Plant>> plants_by_gpu(const Scene& scene, const host::SceneTerrain& terrain, const Path& path,
@@ -95,10 +99,15 @@ Expected<std::vector<Plant>> plants_in_region(const Scene& scene, const host::Sc
   Exclusions exclusions;
   for (const ExclusionShape& shape : scene.exclusions)
     if (auto added = exclusions.add(shape); !added) return tl::unexpected(added.error());
+  // As the scene begins.
+  auto replay = host::DisturbanceReplay::create(scene);
+  if (!replay) return tl::unexpected(replay.error());
+  if (auto replayed = replay->advance_to(0); !replayed) return tl::unexpected(replayed.error());
   std::vector<Plant> all;
   uint32_t first_species = 0;
   for (const Layer& layer : scene.layers) {
-    const PlantQueryOptions query{options.most - std::min(options.most, all.size()), &exclusions, scene.sun_azimuth};
+    const PlantQueryOptions query{options.most - std::min(options.most, all.size()), &exclusions, scene.sun_azimuth,
+                                  &replay->disturbance()};
     const auto mesh = terrain.mesh_of(layer.name);
     auto grown = mesh ? query_plants(layer, *mesh, region, query)
                       : query_plants(layer, terrain.surface(), terrain.colors(), region, query);

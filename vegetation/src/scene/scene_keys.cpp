@@ -401,12 +401,12 @@ Expected<void> check_species(const toml::table& table, const Species& species, c
   }
   if (auto fits = check_kind_tables(table, species, context); !fits) return fits;
   if (species.kind == PlantKind::none) {
-    return refuse(
-        table,
-        {"height_m", "width_m",     "stiffness",  "lean_deg",     "phototropism",    "segments",      "tint",
-         "age_tint", "age_share",   "root_shade", "translucency", "attenuation",     "specular",      "shininess",
-         "leaves",   "trunk_share", "taper",      "detail",       "detail_strength", "detail_repeat", "cutout"},
-        "where nothing grows (kind = \"none\")", context);
+    return refuse(table, {"height_m",     "width_m",     "stiffness", "lean_deg",        "phototropism",
+                          "segments",     "tint",        "age_tint",  "age_share",       "root_shade",
+                          "translucency", "attenuation", "specular",  "shininess",       "leaves",
+                          "trunk_share",  "taper",       "detail",    "detail_strength", "detail_repeat",
+                          "cutout",       "resistance"},
+                  "where nothing grows (kind = \"none\")", context);
   }
   if (auto fits = refuse(table, {"forbids"}, "on what grows, expected only with kind = \"none\"", context); !fits) {
     return fits;
@@ -629,6 +629,7 @@ const Schema<Species>& species_schema() {
        number("attenuation", &S::attenuation, within(0, 10000)),
        number("specular", &S::specular, within(0, 10000)),
        number("shininess", &S::shininess, within(1, 10000)),
+       resistance_key(),
        plant_image_key("detail", &S::detail_file, detail_expected()),
        number("detail_strength", &S::detail_strength, within(0, 1)),
        number("detail_repeat", &S::detail_repeat, within(0.1, 100)),
@@ -727,7 +728,8 @@ const Schema<Scene>& scene_schema() {
        section("camera", camera_schema()), tables<Scene, Layer>("layer", &Scene::layers, layer_schema()),
        section("season", season_schema()),
        tables<Scene, ExclusionShape>("exclude", &Scene::exclusions, exclude_schema()),
-       tables<Scene, SceneSurface>("surface", &Scene::surfaces, surface_schema()), wind_key()},
+       tables<Scene, SceneSurface>("surface", &Scene::surfaces, surface_schema()),
+       table<Scene, SceneDisturbance>("disturbance", &Scene::disturbance, disturbance_schema()), wind_key()},
       check_scene};
   return schema;
 }

@@ -27,6 +27,9 @@ const Schema<Scene>& season_schema();
 const Schema<GroundSeason>& ground_season_schema();
 const Schema<ExclusionShape>& exclude_schema();
 const Schema<SceneSurface>& surface_schema();
+const Schema<SceneDisturbance>& disturbance_schema();
+const Schema<SceneWalker>& walker_schema();
+const Schema<SceneEvent>& event_schema();
 const Schema<PlantMesh>& plant_mesh_schema();
 /// Surfaces and layers on meshes name each other.
 Expected<void> check_surfaces(const toml::table& table, const Scene& scene, const Context& context);
@@ -43,6 +46,8 @@ const Schema<SceneWindSource>& wind_source_schema();
 const Schema<SceneWindMover>& wind_mover_schema();
 /// `[wind]`.
 Key<Scene> wind_key();
+/// `resistance` of a species.
+Key<Species> resistance_key();
 
 /// `[[terrain.material]]`.
 Key<Scene> materials_key();

@@ -244,6 +244,7 @@ DisturbanceStats Disturbance::stats() const {
 }
 
 void Disturbance::clear() {
+  if (tiles_->map.empty()) return;
   tiles_->map.clear();
   tiles_->bytes = 0;
   ++tiles_->revision;

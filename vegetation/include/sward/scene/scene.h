@@ -54,6 +54,38 @@ struct SceneMaterial {
   std::string where;        ///< "FILE:LINE", for errors of the images.
 };
 
+/// Something that goes along a path and presses the plants: a person, a vehicle.
+struct SceneWalker {
+  bool wheels = false;    ///< Two unbroken tracks instead of steps.
+  float radius_m = 0.14f; ///< Of a foot, half the width of a wheel's track.
+  float weight = 0.9f;    ///< How far plants are laid down, 0..1.
+  float track_m = 0.22f;  ///< Between left and right.
+  float step_m = 0.7f;    ///< From a foot to the other.
+  std::vector<glm::dvec3> path;  ///< Time (s), world x, y (m): times rise; straight and at one speed in between.
+};
+
+/// Something that happens to the ground once.
+struct SceneEvent {
+  enum class Kind { explosion, cut, burn, wet, paint, rotor };
+  Kind kind = Kind::explosion;
+  double time_s = 0;
+  glm::dvec2 position{0};             ///< World x, y.
+  std::optional<glm::dvec2> to;       ///< The other end of a strip; not for explosion and rotor.
+  double radius_m = 3;
+  float amount = 1;                   ///< Of burn, wet, paint, rotor, 0..1.
+  float height_m = 0.05f;             ///< That a cut leaves.
+  glm::vec3 color{0.8f, 0.1f, 0.1f};  ///< Of paint, sRGB.
+};
+
+/// What has touched the ground before and what touches it as time goes on.
+struct SceneDisturbance {
+  std::string file;                                    ///< That Disturbance::save() wrote; empty: none.
+  float press_half_life_s = 300, wet_half_life_s = 900;  ///< As DisturbanceOptions.
+  double memory_mb = 64;                               ///< DisturbanceOptions::memory_limit in 2^20 bytes.
+  std::vector<SceneWalker> walkers;
+  std::vector<SceneEvent> events;
+};
+
 /// A scene as a TOML file names it. Paths are kept as written; resolve() makes them relative to the file's folder.
 struct Scene {
   std::string name;
@@ -104,6 +136,9 @@ struct Scene {
 
   // [[surface]]
   std::vector<SceneSurface> surfaces;
+
+  // [disturbance]
+  SceneDisturbance disturbance;
 
   // [[exclude]]
   std::vector<ExclusionShape> exclusions;
