@@ -168,6 +168,8 @@ struct SceneRenderer::Impl {
   float sun_azimuth = 0;  // of the last frame
   Air air{};
   const WindTextures* wind = nullptr;  // what the layers move in
+  std::vector<RollingBall> balls = {};
+  std::optional<BallRenderer> ball_renderer = {};  // from the first ball on
   std::optional<DisturbanceReplay> replay = {};
   std::optional<DisturbanceTextures> disturbed = {};  // from the first touch on
 
@@ -416,6 +418,7 @@ Expected<SceneFrameStats> SceneRenderer::draw(const View& view, const gl::Lighti
   self.draw_terrain(view, stats);
   for (MeshRenderer& body : self.programs.meshes) body.draw(view, self.frame);
   self.terrain_timer.end();
+  if (self.ball_renderer) self.ball_renderer->draw(self.frame, view, self.balls);
   if (self.sky_on) self.programs.sky.draw(self.frame);
   if (self.air.arrows_on && self.air.wind)
     self.air.arrows->draw(self.frame, view, self.air.wind->wind(), self.terrain.surface());
@@ -454,6 +457,15 @@ Expected<void> SceneRenderer::set_wind_overlay(bool enabled) {
     impl_->air.arrows = std::move(*arrows);
   }
   impl_->air.arrows_on = enabled;
+  return {};
+}
+
+Expected<void> SceneRenderer::set_balls(std::span<const RollingBall> balls) {
+  impl_->balls.assign(balls.begin(), balls.end());
+  if (balls.empty() || impl_->ball_renderer) return {};
+  auto made = BallRenderer::create(impl_->shaders, impl_->bindings);
+  if (!made) return tl::unexpected(made.error());
+  impl_->ball_renderer = std::move(*made);
   return {};
 }
 

@@ -15,6 +15,7 @@
 #include <optional>
 
 #include "host/disturbance_replay.h"
+#include "host/rolling_ball.h"
 #include "host/scene_frame.h"
 #include "host/scene_terrain.h"
 #include "host/sky.h"
@@ -90,6 +91,8 @@ class SceneRenderer {
   Expected<void> set_layer(size_t index, const Layer& layer);
   /// The time of the year, 0..1, for all layers from the next frame on; the ground's is the lighting's.
   void set_season(float season);
+  /// Balls to be drawn from the next frame on.
+  Expected<void> set_balls(std::span<const RollingBall> balls);
   /// Ground on which nothing stands; the next frame follows changes.
   Exclusions& exclusions();
   /// What has touched the ground: the scene's own, replayed to each frame's time, and whatever the host adds between

@@ -71,6 +71,22 @@ void edit_light_and_budget(PanelState& state) {
   state.budget_changed |= ImGui::SliderFloat("error target", &state.target_px, 0, 8, "%.1f px");
 }
 
+void edit_wind(PanelState& state) {
+  if (!ImGui::CollapsingHeader("Wind", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  Weather& weather = state.weather;
+  bool changed = ImGui::SliderFloat("wind", &weather.speed_m_s, 0, 40, "%.1f m/s");
+  float from = glm::degrees(weather.from_azimuth);
+  if (ImGui::SliderFloat("comes from", &from, -180, 180, "%.0f deg")) {
+    weather.from_azimuth = glm::radians(from);
+    changed = true;
+  }
+  changed |= ImGui::SliderFloat("gustiness", &weather.gustiness, 0, 1);
+  changed |= ImGui::SliderFloat("gust length", &weather.gust_length_m, 5, 500, "%.0f m", ImGuiSliderFlags_Logarithmic);
+  changed |= ImGui::SliderFloat("in calm", &weather.ambient_m_s, 0, 2, "%.2f m/s");
+  state.weather_changed |= changed;
+  ImGui::Checkbox("arrows (V)", &state.wind_arrows);
+}
+
 bool edit_range(const char* name, FloatRange& range, float most, const char* format) {
   return ImGui::DragFloatRange2(name, &range.min, &range.max, most / 400, 0.001f, most, format, nullptr,
                                 ImGuiSliderFlags_AlwaysClamp);
@@ -122,11 +138,16 @@ void draw_panel(PanelState& state, WalkCamera& camera, const host::SceneFrameSta
   ImGui::SetNextWindowPos({12, 12}, ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize({390, 640}, ImGuiCond_FirstUseEver);
   if (ImGui::Begin("sward")) {
-    ImGui::TextWrapped("WASD move, E Q up down, Shift fast, right mouse look, F walk or fly, F5 reload shaders");
+    ImGui::TextWrapped("WASD move, E Q up down, Shift fast, right mouse look, F walk or fly, F5 reload");
+    ImGui::TextWrapped(
+        "At the place looked at: C cut, X burn, Z blast, T let grow again, G gust from here, H whirlwind, R rotor on "
+        "or "
+        "off, B roll a ball; V wind arrows");
     if (!state.message.empty()) ImGui::TextColored({1, 0.6f, 0.3f, 1}, "%s", state.message.c_str());
     show_statistics(stats, frame_ms);
     edit_camera(camera);
     edit_light_and_budget(state);
+    edit_wind(state);
     ImGui::Checkbox("vegetation", &state.vegetation);
     for (size_t i = 0; i < state.layers.size(); ++i) {
       ImGui::PushID(int(i));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <sward/vegetation/species.h>
+#include <sward/vegetation/wind.h>
 #include <string>
 #include <vector>
 
@@ -21,11 +22,14 @@ struct PanelState {
   int max_triangles = 20000;
   float target_px = 0;
   bool vegetation = true;
+  Weather weather;           ///< The wind everywhere.
+  bool wind_arrows = false;  ///< Shown over the ground.
   std::vector<Layer> layers;
   std::string message;  ///< The last error, or what was reloaded.
 
   // Set by the panel when something is to be applied.
   bool budget_changed = false;
+  bool weather_changed = false;
   std::vector<bool> layer_changed;
 };
 

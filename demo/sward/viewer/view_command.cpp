@@ -17,6 +17,7 @@
 #include "sward/scene_options.h"
 #include "sward/viewer/file_watch.h"
 #include "sward/viewer/panel.h"
+#include "sward/viewer/play.h"
 #include "sward/viewer/window.h"
 
 namespace sward::tool {
@@ -54,6 +55,10 @@ PanelState start_panel(const Scene& scene) {
   state.has_mesh = scene.source == TerrainSource::roam;
   state.max_triangles = int(scene.max_triangles);
   state.target_px = scene.target_px;
+  if (scene.wind)
+    state.weather = scene.wind->weather;
+  else
+    state.weather.ambient_m_s = 0;
   state.layers = scene.layers;
   state.layer_changed.assign(scene.layers.size(), false);
   return state;
@@ -62,6 +67,11 @@ PanelState start_panel(const Scene& scene) {
 // Layers are applied when the mouse lets go: each change compiles programs.
 void apply_panel(PanelState& state, host::SceneRenderer& renderer) {
   renderer.set_vegetation(state.vegetation);
+  if (auto shown = renderer.set_wind_overlay(state.wind_arrows); !shown) state.message = shown.error().message;
+  if (std::exchange(state.weather_changed, false)) {
+    auto set = renderer.wind().set_weather(state.weather);
+    state.message = set ? "" : set.error().message;
+  }
   renderer.set_season(state.season);
   for (Layer& layer : state.layers) layer.season = state.season;
   if (state.budget_changed) {
@@ -106,7 +116,23 @@ struct Shown {
   std::unique_ptr<host::SceneTerrain> terrain;
   std::optional<host::SceneRenderer> renderer;
   PanelState panel;
+  Play play;
 };
+
+PlayInput play_input(Window& window) {
+  const bool typing = ImGui::GetIO().WantCaptureKeyboard;
+  const auto pressed = [&](int key) { return window.pressed_once(key) && !typing; };
+  PlayInput input;
+  input.cut = pressed(GLFW_KEY_C);
+  input.burn = pressed(GLFW_KEY_X);
+  input.explode = pressed(GLFW_KEY_Z);
+  input.regrow = pressed(GLFW_KEY_T);
+  input.gust = pressed(GLFW_KEY_G);
+  input.whirlwind = pressed(GLFW_KEY_H);
+  input.rotor = pressed(GLFW_KEY_R);
+  input.ball = pressed(GLFW_KEY_B);
+  return input;
+}
 
 std::vector<std::string> watched_files(const ViewOptions& options) {
   if (!options.watch) return {};
@@ -158,6 +184,7 @@ class Reloader {
     shown.terrain = std::move(loaded->source.terrain);
     shown.scene = std::move(loaded->source.scene);
     shown.panel = start_panel(shown.scene);
+    shown.play = Play();
     const auto ms = [](Clock::time_point from, Clock::time_point to) {
       return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(to - from).count()) + " ms";
     };
@@ -185,8 +212,14 @@ Expected<void> run_window(Window& window, const ViewOptions& options, Reloader& 
     reloader.follow(window.pressed_once(GLFW_KEY_F5), shown);
     if (window.pressed_once(GLFW_KEY_F) && !ImGui::GetIO().WantCaptureKeyboard) camera.walking = !camera.walking;
     camera.move(window.camera_input(), std::min(seconds, 0.1), shown.terrain->surface());
+    if (window.pressed_once(GLFW_KEY_V) && !ImGui::GetIO().WantCaptureKeyboard)
+      shown.panel.wind_arrows = !shown.panel.wind_arrows;
     draw_panel(shown.panel, camera, stats, seconds * 1000);
     apply_panel(shown.panel, *shown.renderer);
+    auto played = shown.play.follow(play_input(window), camera, std::min(seconds, 0.1), shown.terrain->surface(),
+                                    *shown.renderer);
+    if (!played) shown.panel.message = played.error().message;
+    if (auto set = shown.renderer->set_balls(shown.play.balls()); !set) return set;
 
     const glm::ivec2 size = window.framebuffer_size();
     if (size.x > 0 && size.y > 0) {
@@ -224,7 +257,7 @@ Expected<void> view(const ViewOptions& options) {
   auto renderer = host::SceneRenderer::create(*scene, **terrain, *shaders);
   if (!renderer) return tl::unexpected(renderer.error());
   PanelState panel = start_panel(*scene);
-  Shown shown{std::move(*scene), std::move(*terrain), std::move(*renderer), std::move(panel)};
+  Shown shown{std::move(*scene), std::move(*terrain), std::move(*renderer), std::move(panel), {}};
   Reloader reloader(options, std::move(*context));
   return run_window(*window, options, reloader, shown);
 }

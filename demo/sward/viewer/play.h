@@ -1,0 +1,47 @@
+// Copyright (c) 2026 the sward authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/rolling_ball.h"
+#include "host/scene_renderer.h"
+#include "sward/viewer/camera.h"
+
+namespace sward::tool {
+
+/// Keys that went down in this frame.
+struct PlayInput {
+  bool cut = false, burn = false, explode = false, regrow = false;
+  bool gust = false, whirlwind = false, rotor = false, ball = false;
+};
+
+/// What a person does to the wind and to the ground: walking tramples and stirs the air, keys act on the place looked
+/// at. Belongs to one SceneRenderer: begin anew when that is replaced.
+class Play {
+ public:
+  /// Once a frame, before it is drawn. Fails where the wind or the ground refuses, with its reason; goes on all the
+  /// same.
+  Expected<void> follow(const PlayInput& input, const WalkCamera& camera, double seconds, const Surface& ground,
+                        host::SceneRenderer& renderer);
+  const std::vector<host::RollingBall>& balls() const { return balls_; }
+  bool rotor_on() const { return rotor_.has_value(); }
+
+ private:
+  Expected<void> walk(const WalkCamera& camera, host::SceneRenderer& renderer);
+  Expected<void> roll(double seconds, const Surface& ground, host::SceneRenderer& renderer);
+  Expected<void> hover(bool toggled, const WalkCamera& camera, const Surface& ground, host::SceneRenderer& renderer);
+  Expected<void> act(const PlayInput& input, const WalkCamera& camera, const Surface& ground,
+                     host::SceneRenderer& renderer);
+
+  std::optional<glm::dvec2> feet_;  // where they stood while walking
+  std::optional<WindMoverId> walker_, rotor_;
+  std::vector<host::RollingBall> balls_;
+};
+
+/// Where the view's middle meets the ground, at most 100 m away; 8 m ahead where it does not.
+glm::dvec2 looked_at(const WalkCamera& camera, const Surface& ground);
+
+}  // namespace sward::tool
