@@ -187,6 +187,12 @@ TEST_F(WindOnGpu, OnlyWhatHasChangedIsSent) {
   ASSERT_TRUE(other.advance(1, eye_));
   textures->upload(other, eye_);
   for (const WindHere& here : wind_on_gpu(*textures, places(60))) ASSERT_EQ(here.velocity, glm::vec2(0));
+  textures->upload(wind_, eye_);
+  const auto walker = other.add_mover({.position = glm::dvec2(eye_) - glm::dvec2(20)});
+  ASSERT_TRUE(other.move(*walker, glm::dvec2(eye_) - glm::dvec2(19), 0));
+  ASSERT_TRUE(other.advance(0.5, eye_));
+  textures->upload(other, eye_);
+  expect_twins(other, *textures, eye_, 60);
   // And back.
   textures->upload(wind_, eye_);
   expect_twins(wind_, *textures, eye_, 60);
