@@ -27,7 +27,8 @@ struct LayerParams {
   vec4 reach;     // horizon times zoom, cluster size, 1 if plain, species
   vec4 map;       // texels a metre east, texels a metre north (negative: rows run south), width, height
   vec4 detail;    // full segments up to (m, times zoom), shadow distance (times zoom), ceiling, sun's azimuth
-  vec4 place;     // number of the layer's mask, 0: none; way to the season's next step; 1 if references move; unused
+  vec4 place;     // number of the layer's mask, 0: none; way to the season's next step; 1 if references move; number of
+                  // the height map, 0: none
 };
 
 // HSV of an sRGB-encoded colour, as a colour picker shows it; hue in turns.

@@ -38,7 +38,7 @@ Site site_at(Triangle t, vec2 point) {
 #endif
 }
 
-// Masks: two texels each tell the first texel, width, height; scale. The greys stand sixteen a texel.
+// Masks: two texels each tell the first texel, width, height; the header (layer_params.h). The greys stand sixteen a texel.
 float fetch_mask(uvec4 mask, ivec2 texel) {
   uint place = mask_texel(texel, ivec2(mask.yz));
   uvec4 greys = texelFetch(sward_placement, int(mask.x + (place >> 4)));
@@ -57,6 +57,19 @@ float mask_share(Triangle t, vec2 offset, float number) {
   ivec2 nw = ivec2(whole);
   return mask_factor(fetch_mask(mask, ivec2(floor(place))), fetch_mask(mask, nw), fetch_mask(mask, nw + ivec2(1, 0)),
                      fetch_mask(mask, nw + ivec2(0, 1)), fetch_mask(mask, nw + ivec2(1, 1)), fraction);
+}
+
+// Factor on the heights of what stands here, of the layer's tiled map (Knowles and Fryazinov 2015, section 2).
+float height_share(Triangle t, vec2 offset) {
+  float number = sward_layer.layer.place.w;
+  if (number == 0.0) return 1.0;
+  int head = 2 * (int(number) - 1);
+  uvec4 map = texelFetch(sward_placement, head);
+  vec4 header = uintBitsToFloat(texelFetch(sward_placement, head + 1));
+  vec2 place = mask_place(header.xy, sward_layer.layer, t.texel, t.texel_fraction, offset);
+  TilePlace at = tile_place(place, ivec2(map.yz));
+  return height_factor(fetch_mask(map, at.low), fetch_mask(map, ivec2(at.high.x, at.low.y)),
+                       fetch_mask(map, ivec2(at.low.x, at.high.y)), fetch_mask(map, at.high), at.fraction, header.z);
 }
 
 // By the species' own rules: slope, altitude, water, mask.

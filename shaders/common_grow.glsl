@@ -111,6 +111,7 @@ Seedling grow_seed(FertileCluster fertile, Triangle triangle, Seedling s) {
   s.presence.grow *= share;
   s.map_uv = map_coordinates(triangle, s.offset);
   s.traits = make_traits(sward_layer.species[sward_species], frame_layer(), triangle.id, s.rank, fertile.score);
+  s.traits.height *= height_share(triangle, s.offset);
 #if SWARD_ON_MESH
   s.own_color = surface_color(triangle.texel, triangle.texel_fraction, s.point);
   s.traits = settle_traits(s.traits, triangle_normal(triangle.to_left, triangle.to_right));

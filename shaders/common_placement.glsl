@@ -51,6 +51,32 @@ SWARD_FN float mask_factor(float own, float nw, float ne, float sw, float se, ve
   return factor;
 }
 
+// Four texels of a tiled map around a place given in tiles, and how far between them it lies.
+struct TilePlace {
+  ivec2 low;   // north-western
+  ivec2 high;  // south-eastern
+  vec2 fraction;
+};
+
+SWARD_FN TilePlace tile_place(vec2 place, ivec2 size) {
+  SWARD_PRECISE float x = (place.x - floor(place.x)) * float(size.x) - 0.5f;
+  SWARD_PRECISE float y = (place.y - floor(place.y)) * float(size.y) - 0.5f;
+  ivec2 corner = ivec2(int(floor(x)), int(floor(y)));
+  TilePlace t;
+  t.fraction = vec2(x - floor(x), y - floor(y));
+  t.low = ivec2(corner.x < 0 ? size.x - 1 : corner.x, corner.y < 0 ? size.y - 1 : corner.y);
+  t.high = ivec2(corner.x + 1 < size.x ? corner.x + 1 : 0, corner.y + 1 < size.y ? corner.y + 1 : 0);
+  return t;
+}
+
+// Factor on a plant's height from four greys, 0..255: `least` where they are black.
+SWARD_FN float height_factor(float nw, float ne, float sw, float se, vec2 f, float least) {
+  SWARD_PRECISE float top = nw + (ne - nw) * f.x;
+  SWARD_PRECISE float bottom = sw + (se - sw) * f.x;
+  SWARD_PRECISE float factor = least + (1.0f - least) * ((top + (bottom - top) * f.y) / 255.0f);
+  return factor;
+}
+
 // Excluded shapes near a triangle: a run of texels that ends with one whose w is 0. A disc is (x, y, squared radius, 1); a
 // polygon (inside before any edge, edges, 0, 2) and then that many edges (x0, y0, x1, y1), which the ray from a place to
 // the east may cross. All x, y in metres from the triangle's apex.

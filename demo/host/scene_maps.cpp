@@ -150,6 +150,7 @@ Expected<void> load_maps(Scene& scene) {
   if (auto filled = fill_wind(scene, masks); !filled) return filled;
   for (Layer& layer : scene.layers) {
     if (auto filled = fill_mask(layer.mask_file, scene, masks, layer.mask); !filled) return filled;
+    if (auto filled = fill_mask(layer.height_map_file, scene, masks, layer.height_map); !filled) return filled;
     for (Species& species : layer.species)
       if (auto filled = fill_mask(species.mask_file, scene, masks, species.mask); !filled) return filled;
     for (Species& species : layer.species) {

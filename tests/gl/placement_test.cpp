@@ -51,6 +51,45 @@ TEST_F(Placement, MasksEqualTheTwinAndForbidToTheTexel) {
   }
 }
 
+/// Share of its height that a plant has at a place of the patch, by hand.
+double share_at(const Layer& layer, glm::dvec3 place) {
+  const GrayMap& map = *layer.height_map;
+  const glm::dvec2 tiles = glm::dvec2(place.x, -place.y) / double(layer.height_tile_m);
+  const glm::dvec2 texel = glm::fract(tiles) * glm::dvec2(map.width, map.height) - 0.5;
+  const glm::ivec2 nw(glm::floor(texel));
+  const glm::dvec2 f = texel - glm::dvec2(nw);
+  const auto grey = [&](int column, int row) {
+    return double(map.values[size_t((row + map.height) % map.height * map.width + (column + map.width) % map.width)]);
+  };
+  const double value = glm::mix(glm::mix(grey(nw.x, nw.y), grey(nw.x + 1, nw.y), f.x),
+                                glm::mix(grey(nw.x, nw.y + 1), grey(nw.x + 1, nw.y + 1), f.x), f.y);
+  return layer.height_least + (1 - layer.height_least) * value / 255;
+}
+
+TEST_F(Placement, HeightMapsAreTiledAndEqualTheTwin) {
+  Layer layer = grass_and_soil();
+  Patch without(layer, plain_map(k_side, 32, k_green));
+  without.look(k_view);
+  layer.height_map = random_mask(7, 5, 4);
+  layer.height_tile_m = 3.1f;
+  layer.height_least = 0.3f;
+  layer.species[0].mask = random_mask(64, 64, 2);  // whose place is another
+  Patch patch(layer, plain_map(k_side, 32, k_green));
+  patch.look(k_view);
+  std::map<std::pair<uint64_t, uint32_t>, float> full;
+  for (const Plant& plant : without.plants_of_cpu()) full[{plant.triangle.bits, plant.rank}] = plant.height;
+  const std::vector<Plant> plants = expect_same_plants(patch, 300);
+  float least = 9, most = 0;
+  for (const Plant& plant : plants) {
+    const float share = plant.height / full.at({plant.triangle.bits, plant.rank});
+    EXPECT_NEAR(share, share_at(layer, plant.position), 1e-3);
+    least = std::min(least, share);
+    most = std::max(most, share);
+  }
+  EXPECT_LT(least, 0.35f);
+  EXPECT_GT(most, 0.9f);
+}
+
 TEST_F(Placement, ShapesComeGoAndMoveAtRunTime) {
   Patch patch(grass_and_soil(), plain_map(k_side, 32, k_green));
   patch.look(k_view);

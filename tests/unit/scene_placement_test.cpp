@@ -22,20 +22,25 @@ void expect_error(const std::string& text, int line, const std::string& part) {
 
 TEST(ScenePlacement, KeysReachTheLayer) {
   const auto scene = parse_scene(
-      scene_text("water_level_m = 3.5\nmask = \"a.png\"\ndistribution = \"b.png\"\n",
-                 "slope_deg = [0, 30]\nslope_soft_deg = 10\naltitude_m = [10, 400]\naltitude_soft_m = 5\n"
-                 "above_water_m = -0.5\nmask = \"c.png\"\ntint = [2, 2, 2]\n"
-                 "[[layer.species.season]]\nat = 0.25\nheight = 0.5\n"
-                 "[[layer.species.season]]\nat = 0.75\ntint = [1, 1, 1]\ncolor = \"#ff0000\"\n",
-                 "[season]\nat = 0.25\n[[season.ground]]\nat = 0.25\ntint = [0.5, 1, 1]\n"
-                 "[[exclude]]\ndisc = [1, 2, 3]\n"
-                 "[[exclude]]\nlayer = \"cover\"\npolygon = [[0, 0], [4, 0], [0, 4]]\n"),
+      scene_text(
+          "water_level_m = 3.5\nmask = \"a.png\"\nheight_map = \"h.png\"\nheight_tile_m = 8\nheight_least = 0.2\n"
+          "distribution = \"b.png\"\n",
+          "slope_deg = [0, 30]\nslope_soft_deg = 10\naltitude_m = [10, 400]\naltitude_soft_m = 5\n"
+          "above_water_m = -0.5\nmask = \"c.png\"\ntint = [2, 2, 2]\n"
+          "[[layer.species.season]]\nat = 0.25\nheight = 0.5\n"
+          "[[layer.species.season]]\nat = 0.75\ntint = [1, 1, 1]\ncolor = \"#ff0000\"\n",
+          "[season]\nat = 0.25\n[[season.ground]]\nat = 0.25\ntint = [0.5, 1, 1]\n"
+          "[[exclude]]\ndisc = [1, 2, 3]\n"
+          "[[exclude]]\nlayer = \"cover\"\npolygon = [[0, 0], [4, 0], [0, 4]]\n"),
       "t.toml");
   ASSERT_TRUE(scene) << scene.error().message;
   const Layer& layer = scene->layers[0];
   const Species& grass = layer.species[0];
   EXPECT_EQ(layer.water_level_m, 3.5f);
   EXPECT_EQ(layer.mask_file, "a.png");
+  EXPECT_EQ(layer.height_map_file, "h.png");
+  EXPECT_EQ(layer.height_tile_m, 8.0f);
+  EXPECT_EQ(layer.height_least, 0.2f);
   EXPECT_EQ(layer.distribution_file, "b.png");
   EXPECT_EQ(grass.mask_file, "c.png");
   EXPECT_NEAR(grass.slope.max, 0.5235988f, 1e-6f);

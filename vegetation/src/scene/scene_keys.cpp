@@ -714,6 +714,9 @@ const Schema<Layer>& layer_schema() {
        number("shadow_distance_m", &L::shadow_distance_m, at_least(0), "metres"),
        number("water_level_m", &L::water_level_m, any_number(), "metres"),
        text("mask", &L::mask_file, "the path of an image"),
+       text("height_map", &L::height_map_file, "the path of an image"),
+       number("height_tile_m", &L::height_tile_m, within(0.1, 100000), "metres"),
+       number("height_least", &L::height_least, within(0, 1)),
        text("distribution", &L::distribution_file, "the path of an image"),
        tables<L, Species>("species", &L::species, species_schema())},
       check_layer};

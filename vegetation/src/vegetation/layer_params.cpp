@@ -48,11 +48,17 @@ std::vector<const GrayMap*> masks_of(const Layer& layer) {
   };
   add(layer.mask.get());
   for (const Species& species : layer.species) add(species.mask.get());
+  if (layer.height_map) masks.push_back(layer.height_map.get());
   return masks;
 }
 
-glm::vec2 mask_scale(const GrayMap& mask, const MapGeometry& map) {
-  return glm::vec2(glm::dvec2(mask.width, mask.height) / glm::dvec2(map.texels));
+glm::vec4 mask_header(const Layer& layer, size_t i, const MapGeometry& map) {
+  const std::vector<const GrayMap*> masks = masks_of(layer);
+  if (layer.height_map && i + 1 == masks.size()) {
+    const glm::dvec2 tiles = map.size / (glm::dvec2(map.texels) * double(layer.height_tile_m));
+    return {glm::vec2(tiles), layer.height_least, 0.0f};
+  }
+  return {glm::vec2(glm::dvec2(masks[i]->width, masks[i]->height) / glm::dvec2(map.texels)), 0.0f, 0.0f};
 }
 
 shared::LayerParams make_layer_params(const Layer& layer, const View& view, const MapGeometry& map, float sun_azimuth) {
@@ -66,7 +72,7 @@ shared::LayerParams make_layer_params(const Layer& layer, const View& view, cons
   params.detail = {layer.full_segments_m * zoom, layer.shadow_distance_m * zoom, float(layer.ceiling), sun_azimuth};
   const SeasonStep step = season_step(layer.season);
   params.place = {mask_number(masks_of(layer), layer.mask.get()), step.way, references_move(layer, step) ? 1.0f : 0.0f,
-                  0.0f};
+                  layer.height_map ? float(masks_of(layer).size()) : 0.0f};
   return params;
 }
 

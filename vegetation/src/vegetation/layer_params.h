@@ -26,11 +26,12 @@ shared::LayerParams make_layer_params(const Layer& layer, const View& view, cons
 /// What classification reads: the layer's distribution map, where it has one, in the base map's place.
 MapGeometry classification_map(const Layer& layer, const MapGeometry& base);
 
-/// The layer's masks, each once. Shaders number them from 1.
+/// The layer's masks, each once, and last the height map. Shaders number them from 1.
 std::vector<const GrayMap*> masks_of(const Layer& layer);
 
-/// Texels of a mask a texel of the map that classification reads.
-glm::vec2 mask_scale(const GrayMap& mask, const MapGeometry& map);
+/// What shaders know of masks_of()[i] beyond its greys. x, y: of a mask its texels, of the height map its tiles, a
+/// texel of the map that classification reads; z: of the height map Layer::height_least; w: 0.
+glm::vec4 mask_header(const Layer& layer, size_t i, const MapGeometry& map);
 
 /// One entry a species, in the layer's order, for the layer's season.
 std::vector<shared::SpeciesParams> make_species_params(const Layer& layer);

@@ -24,7 +24,8 @@ size_t texels_of(const GrayMap& mask) {
   return (mask.values.size() + k_greys_a_texel - 1) / k_greys_a_texel;
 }
 
-/// Two texels a mask (first texel, width, height; scale, written by follow()), then the greys, lowest byte first.
+/// Two texels a mask (first texel, width, height; mask_header(), written by follow()), then the greys, lowest byte
+/// first.
 std::vector<glm::uvec4> pack_masks(const std::vector<const GrayMap*>& masks) {
   std::vector<glm::uvec4> texels(2 * masks.size() + 1, glm::uvec4(0));
   for (size_t i = 0; i < masks.size(); ++i) {
@@ -81,12 +82,13 @@ Expected<PlacementTextures> PlacementTextures::create(const Layer& layer) {
 
 void PlacementTextures::follow(const Layer& layer, const MapGeometry& map, GLuint base_map_raw) {
   base_map_raw_ = base_map_raw;
-  if (texels_ == map.texels) return;
+  if (texels_ == map.texels && size_ == map.size) return;
   texels_ = map.texels;
-  const std::vector<const GrayMap*> masks = masks_of(layer);
-  for (size_t i = 0; i < masks.size(); ++i) {
-    const glm::vec4 scale(mask_scale(*masks[i], map), 0.0f, 0.0f);
-    glNamedBufferSubData(buffer_.id(), GLintptr((2 * i + 1) * sizeof scale), GLsizeiptr(sizeof scale), &scale);
+  size_ = map.size;
+  const size_t masks = masks_of(layer).size();
+  for (size_t i = 0; i < masks; ++i) {
+    const glm::vec4 header = mask_header(layer, i, map);
+    glNamedBufferSubData(buffer_.id(), GLintptr((2 * i + 1) * sizeof header), GLsizeiptr(sizeof header), &header);
   }
 }
 

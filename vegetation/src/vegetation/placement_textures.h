@@ -28,6 +28,7 @@ class PlacementTextures {
   gl::Texture masks_, distribution_;
   GLuint base_map_raw_ = 0;
   glm::ivec2 texels_{0};
+  glm::dvec2 size_{0};
 };
 
 }  // namespace sward

@@ -56,12 +56,24 @@ float mask_share(const Ground& ground, const TriangleRecord& t, vec2 offset, flo
   if (number == 0.0f) return 1.0f;
   const GrayMap& mask = *ground.masks[size_t(number) - 1];
   const vec2 place =
-      mask_place(ground.mask_scales[size_t(number) - 1], ground.layer, t.texel, t.texel_fraction, offset);
+      mask_place(vec2(ground.mask_headers[size_t(number) - 1]), ground.layer, t.texel, t.texel_fraction, offset);
   const vec2 corner = place - vec2(0.5f);
   const vec2 whole = floor(corner);
   const ivec2 nw(whole);
   return mask_factor(fetch_mask(mask, ivec2(floor(place))), fetch_mask(mask, nw), fetch_mask(mask, nw + ivec2(1, 0)),
                      fetch_mask(mask, nw + ivec2(0, 1)), fetch_mask(mask, nw + ivec2(1, 1)), corner - whole);
+}
+
+/// Factor on the heights of what stands here.
+float height_share(const Ground& ground, const TriangleRecord& t, vec2 offset) {
+  if (ground.layer.place.w == 0.0f) return 1.0f;
+  const auto number = size_t(ground.layer.place.w) - 1;
+  const GrayMap& map = *ground.masks[number];
+  const vec4 header = ground.mask_headers[number];
+  const TilePlace at = tile_place(mask_place(vec2(header), ground.layer, t.texel, t.texel_fraction, offset),
+                                  ivec2(map.width, map.height));
+  return height_factor(fetch_mask(map, at.low), fetch_mask(map, ivec2(at.high.x, at.low.y)),
+                       fetch_mask(map, ivec2(at.low.x, at.high.y)), fetch_mask(map, at.high), at.fraction, header.z);
 }
 
 float species_share(const Ground& ground, const TriangleRecord& t, const Site& site, const SpeciesParams& species) {
@@ -175,6 +187,7 @@ class Grower {
     const float share = seed_share(species, point, cluster.z, turning, rank);
     if (!(share > 0.0f)) return;
     PlantTraits traits = make_traits(species, ground_.layer, id_, rank, choice.score);
+    traits.height *= height_share(ground_, record_, offset);
     Plant& plant = plants_.emplace_back();
     if (ground_.map == nullptr) {
       plant.axis = triangle_normal(record_.to_left, record_.to_right);
@@ -218,7 +231,7 @@ PlantGround make_plant_ground(const Layer& layer, const View& view, const ColorM
                      masks_of(layer),
                      {},
                      exclusions};
-  for (const GrayMap* mask : ground.masks) ground.mask_scales.push_back(mask_scale(*mask, geometry));
+  for (size_t i = 0; i < ground.masks.size(); ++i) ground.mask_headers.push_back(mask_header(layer, i, geometry));
   return ground;
 }
 

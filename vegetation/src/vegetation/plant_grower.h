@@ -18,7 +18,7 @@ struct PlantGround {
   shared::LayerParams layer;
   std::vector<shared::SpeciesParams> species;
   std::vector<const GrayMap*> masks;
-  std::vector<glm::vec2> mask_scales;
+  std::vector<glm::vec4> mask_headers;
   std::span<const glm::vec4> exclusions;  ///< Seeding::exclusions.
   const Disturbance* disturbance = nullptr;
   std::optional<glm::dvec2> eye = {};  ///< That the disturbance is drawn around; none: it is next to each plant.

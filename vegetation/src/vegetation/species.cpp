@@ -230,6 +230,10 @@ void check_maps(const Layer& layer, Check& check) {
   check.within("water_level_m", layer.water_level_m, -k_infinity, std::numeric_limits<float>::max());
   check.require(std::isfinite(layer.season), "season is not finite");
   check_mask(layer.mask, check);
+  if (layer.height_map)
+    if (auto valid = layer.height_map->validate(); !valid) check.require(false, "height_map " + valid.error().message);
+  check.within("height_tile_m", layer.height_tile_m, 0.1f, 1.0e5f);
+  check.within("height_least", layer.height_least, 0.0f, 1.0f);
   if (!layer.distribution) return;
   if (auto valid = layer.distribution->validate(); !valid)
     check.require(false, "distribution: " + valid.error().message);
@@ -239,6 +243,8 @@ void check_maps(const Layer& layer, Check& check) {
 void check_mesh(const Layer& layer, Check& check) {
   if (!layer.on_mesh) return;
   check.require(!layer.mask && layer.mask_file.empty(), "mask is set, which a layer on a mesh cannot have");
+  check.require(!layer.height_map && layer.height_map_file.empty(),
+                "height_map is set, which a layer on a mesh cannot have");
   check.require(!layer.distribution && layer.distribution_file.empty(),
                 "distribution is set, which a layer on a mesh cannot have; give the mesh colours");
   for (const Species& species : layer.species) {
@@ -306,6 +312,7 @@ Expected<void> require_maps(const Layer& layer) {
     return fail("layer '" + layer.name + "'" + owner + ": the " + what + " \"" + file + "\" is named but not loaded");
   };
   if (!layer.mask && !layer.mask_file.empty()) return missing("", "mask", layer.mask_file);
+  if (!layer.height_map && !layer.height_map_file.empty()) return missing("", "height map", layer.height_map_file);
   if (!layer.distribution && !layer.distribution_file.empty())
     return missing("", "distribution map", layer.distribution_file);
   for (const Species& species : layer.species) {

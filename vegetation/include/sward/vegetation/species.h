@@ -79,14 +79,15 @@ struct PlantImageFile {
 
 struct TriangleMesh;  // mesh_surface.h
 
-/// Of PlantKind::mesh: bent along its axis, z from the lowest position to the highest, as a blade is; that axis is scaled
-/// to the species' height, twice the largest distance from it to its width. Colours are the vertices', times the tint.
+/// Of PlantKind::mesh: bent along its axis, z from the lowest position to the highest, as a blade is; that axis is
+/// scaled to the species' height, twice the largest distance from it to its width. Colours are the vertices', times the
+/// tint.
 struct PlantMesh {
   std::shared_ptr<const TriangleMesh> mesh;  ///< At most 512 faces, a colour each position. Null: not loaded.
   std::vector<float> heights;  ///< How far up the axis each position bends, 0..1; empty: as high as it stands. What has
                                ///< one coordinate stays rigid.
-  std::string file;   ///< For those who load scenes, as Species::mask_file: an OBJ, PLY or OFF file, or
-  std::string shape;  ///< a generated one (generate_plant_shape).
+  std::string file;            ///< For those who load scenes, as Species::mask_file: an OBJ, PLY or OFF file, or
+  std::string shape;           ///< a generated one (generate_plant_shape).
 };
 
 /// No bound of a range.
@@ -201,8 +202,15 @@ struct Layer {
   std::shared_ptr<const ColorMap> distribution;  ///< Classification reads its texels (colours, alpha) instead of the
                                                  ///< base map's; its place is the base map's. Null: the base map.
   std::string mask_file, distribution_file;      ///< As Species::mask_file.
+  /// A map tiled over the world whose greys vary the plants' heights (Knowles and Fryazinov 2015, section 2): black
+  /// makes them `height_least` of what they are, white leaves them. Its first tile begins at the north-western corner
+  /// of the map that classification reads. Null: none.
+  std::shared_ptr<const GrayMap> height_map;
+  std::string height_map_file;  ///< As Species::mask_file.
+  float height_tile_m = 24.0f;  ///< A side of a tile, 0.1..100000.
+  float height_least = 0.4f;    ///< 0..1.
   /// The triangles come from a MeshSurface, not from a terrain: plants stand along its normals, are chosen by its own
-  /// colours and cast no planar shadows. Masks, distribution maps and phototropism are refused.
+  /// colours and cast no planar shadows. Masks, height maps, distribution maps and phototropism are refused.
   bool on_mesh = false;
   float season = 0.0f;  ///< Time of the year, 0..1, 1 being 0 again; finite. Of no use without Species::seasons.
 };
