@@ -69,7 +69,12 @@ std::vector<double> wind_jacobian(std::span<const double> phi, double k_prime, d
   return matrix;
 }
 
-/// Newton's method from `phi`. False when it does not settle within a few steps.
+/// On the branch that is followed every joint bends with the wind.
+bool bends_one_way(std::span<const double> phi) {
+  return std::all_of(phi.begin(), phi.end(), [](double angle) { return angle > -1.0e-9; });
+}
+
+/// Newton's method from `phi`. False when it does not settle within a few steps, or on another branch.
 bool settle(std::vector<double>& phi, double k_prime, double load) {
   for (int iteration = 0; iteration < 16; ++iteration) {
     std::vector<double> step = wind_residual(phi, k_prime, load);
@@ -81,14 +86,14 @@ bool settle(std::vector<double>& phi, double k_prime, double load) {
       largest = std::max(largest, std::abs(step[n]));
     }
     if (!(largest < 1.0)) return false;
-    if (largest < 1.0e-12) return true;
+    if (largest < 1.0e-12) return bends_one_way(phi);
   }
   return false;
 }
 
 /// Follows the branch from the load `from` to `to`, in steps of the load's root, which is as the wind's speed.
 bool follow_wind(std::vector<double>& phi, double k_prime, double from, double to) {
-  double at = std::sqrt(from), step = std::sqrt(to) - at;
+  double at = std::sqrt(from), step = 0.25;
   const double end = std::sqrt(to);
   while (at < end) {
     const double next = std::min(end, at + step);
@@ -212,7 +217,7 @@ double wind_of_layer(double layer) {
 }
 
 double wind_load(double wind, double stiffness) {
-  return 0.05 * wind * wind * (1.1 - std::clamp(stiffness, 0.0, 1.0));
+  return 0.02 * wind * wind * (1.1 - std::clamp(stiffness, 0.0, 1.0));
 }
 
 Expected<WindShapes> make_wind_shapes() {
