@@ -60,3 +60,14 @@ vec3 disturbed_color(vec3 color, Disturbed d) {
   vec3 encoded = clamp(d.paint.rgb / max(d.paint.a, 1.0e-4), 0.0, 1.0);
   return mix(color, pow(encoded, vec3(2.2)), min(d.paint.a, 1.0));
 }
+
+// The same for ground and what takes its colour, at `point` relative to the eye: green that lies away from the eye shows
+// its broad sides and is bright, what lies towards the eye is dark, as mown lawns have stripes; stubble is pale.
+vec3 disturbed_ground(vec3 color, Disturbed d, vec3 point) {
+  float brightest = max(color.r, max(color.g, color.b));
+  float grassy = smoothstep(-0.35, -0.05, (color.g - color.r) / max(brightest, 1.0e-3));
+  vec2 ahead = point.xy * inversesqrt(dot(point, point) + 1.0e-6);
+  color *= 1.0 + grassy * (0.75 * dot(d.press, ahead) + 0.25 * length(d.press));
+  color *= mix(vec3(1.0), vec3(1.34, 1.18, 0.86), grassy * smoothstep(0.2, 0.8, d.cut));
+  return disturbed_color(color, d);
+}

@@ -120,7 +120,7 @@ vec3 ground_albedo(sampler2D base_map, vec2 uv, inout GroundDetail detail) {
   vec3 base = base_color(base_map, uv, detail);
   vec3 color = octaves_albedo(base, detail);
   if (has_materials()) color *= material_shade(base, detail);
-  return ground_is_disturbed() ? disturbed_color(color, disturbed_here(detail.point)) : color;
+  return ground_is_disturbed() ? disturbed_ground(color, disturbed_here(detail.point), detail.point) : color;
 }
 
 // For plants, which take on the ground's colour but not its texture. What has touched it is the caller's to add.

@@ -29,6 +29,6 @@ vec3 root_color(sampler2D base_map, Seedling s) {
   return mesh_albedo(s.own_color, s.root);
 #else
   vec3 color = ground_albedo(base_map, s.map_uv, s.root, s.ground_normal);
-  return ground_is_disturbed() ? disturbed_color(color, s.disturbed) : color;
+  return ground_is_disturbed() ? disturbed_ground(color, s.disturbed, s.root) : color;
 #endif
 }
