@@ -55,6 +55,7 @@ const BadInput k_cases[] = {
     {"MoreSamplesThanThereAre", "render SCENE --samples 4096 -o a.ppm", 1, "maximum"},
     {"FlyMoreSamplesThanThereAre", "fly SCENE --samples 4096 --csv a.csv", 1, "maximum"},
     {"TimeNaN", "render SCENE --time nan -o a.ppm", 1, "--time"},
+    {"WindOverlayWithoutWind", "render SCENE --wind-overlay -o a.ppm", 1, "[wind]"},
     {"SunAboveTheZenith", "render SCENE --sun 0,91 -o a.ppm", 1, "--sun"},
     {"NoSuchShaders", "render SCENE --shaders nowhere -o a.ppm", 1, "nowhere: there is no such folder of shaders"},
     {"BudgetBelowTheRoots", "mesh SCENE --triangles 1", 1, "root mesh"},

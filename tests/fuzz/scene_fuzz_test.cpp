@@ -57,6 +57,8 @@ const std::vector<std::string> k_pieces{"[",
                                         "law = \"world_area\"\n",
                                         "[[layer.species.season]]\nat = 0.5\n",
                                         "[[exclude]]\npolygon = [[0, 0], [4, 0], [0, 4]]\n",
+                                        "[[wind.source]]\nposition_m = [1, 2]\nkind = \"whirlwind\"\n",
+                                        "[[wind.mover]]\npath = [[0, 1, 2, 0], [3, 4, 5, 0]]\n",
                                         "altitude_m = [1, 2]\nslope_deg = [3, 4]\n"};
 
 std::string mutate(std::string text, std::mt19937& random) {

@@ -362,6 +362,39 @@ TEST(Wind, RefusesBadInputAndStaysAsItWas) {
   EXPECT_EQ(wind.at({0, k_inf, 0}).ambient, glm::vec2(0));
 }
 
+TEST(Wind, ExtremesStayFinite) {
+  Wind wind;
+  ASSERT_TRUE(wind.set_weather({120, -1e4f, 1, 2, 20, 1}));
+  for (const double far : {0.0, 1e9}) {
+    WindSource source;
+    source.position = {far, -far};
+    source.velocity_m_s = {120, -120};
+    source.start_s = -1e6;
+    source.duration_s = source.repeat_s = 1e6;
+    source.rise_s = 1e-9;
+    source.outward_m_s = source.around_m_s = 120;
+    source.radius_m = 1e-6f;
+    source.falloff = 4;
+    source.reach_m = 100000;
+    source.travel_m_s = 0.1f;
+    source.wave_period_s = 0.05f;
+    source.wave_share = 1;
+    ASSERT_TRUE(wind.add_source(source));
+  }
+  ASSERT_TRUE(wind.set_painted(painted(1, 1, {{-4, 4}})));
+  for (const double seconds : {0.0, 1e-9, 0.1, 1e9}) {
+    for (const glm::dvec3 eye : {k_eye, glm::dvec3(1e9, -1e9, 1e9), glm::dvec3(0)}) {
+      ASSERT_TRUE(wind.advance(seconds, eye));
+      for (const glm::dvec3 at :
+           {eye, glm::dvec3(0), eye + glm::dvec3(1e-7, 0, 0), glm::dvec3(-1e9), glm::dvec3(1e300)}) {
+        const WindHere here = wind.at(at);
+        for (const float value : {here.velocity.x, here.velocity.y, here.ambient.x, here.ambient.y, here.gust})
+          ASSERT_TRUE(std::isfinite(value)) << seconds << " s, " << eye.x << ", " << at.x;
+      }
+    }
+  }
+}
+
 TEST(Wind, HoldsSoManySourcesAndNoMore) {
   Wind wind;
   WindSourceId first;

@@ -51,6 +51,7 @@ Expected<void> render(const RenderOptions& options) {
   if (auto checked = check_output(options.stats); !checked) return checked;
   auto scene = make_scene(options.scene);
   if (!scene) return tl::unexpected(scene.error());
+  if (options.wind_overlay && !scene->wind) return fail("--wind-overlay needs a scene with [wind]; add the table");
   auto shaders = make_shaders(options.scene);
   if (!shaders) return tl::unexpected(shaders.error());
 
@@ -65,7 +66,6 @@ Expected<void> render(const RenderOptions& options) {
   if (!renderer) return tl::unexpected(renderer.error());
   renderer->set_vegetation(!options.no_plants);
   renderer->set_streaming(host::Streaming::wait);
-  if (options.wind_overlay && !scene->wind) return fail("--wind-overlay needs a scene with [wind]; add the table");
   if (auto set = renderer->set_wind_overlay(options.wind_overlay); !set) return set;
 
   const View view = host::scene_view(*scene, **terrain, *size);

@@ -21,6 +21,8 @@ constexpr double k_gust_turns[2] = {0.0, 0.93}, k_noise_turns[2] = {0.4, 1.3};
 constexpr double k_noise_tiles_m[2] = {59.0, 36.7};
 constexpr double k_small_gusts = 0.31;  // length of the second map's against the first's
 
+constexpr double k_farthest_m = 4e9;  // from the eye: floats do not hold everything
+
 double gust_tile(const Weather& weather, size_t map) {
   const double length = double(weather.gust_length_m) * (map == 0 ? 1.0 : k_small_gusts);
   return length * WindMaps::k_gusts[map];
@@ -162,7 +164,7 @@ double Wind::time() const {
 
 WindHere Wind::at(glm::dvec3 world) const {
   const glm::dvec2 from = glm::dvec2(world) - glm::dvec2(state_->eye);
-  if (!std::isfinite(from.x) || !std::isfinite(from.y)) return {};
+  if (!(std::abs(from.x) <= k_farthest_m && std::abs(from.y) <= k_farthest_m)) return {};
   return wind_here(*state_, state_->params, glm::vec2(from));
 }
 

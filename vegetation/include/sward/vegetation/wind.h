@@ -142,7 +142,7 @@ class Wind {
 
   /// The wind at a place, as plants feel it: for sound, particles, aircraft. Equal to wind_here() in
   /// shaders/common_wind.glsl within 0.5 % of the strongest wind around and 0.01 m/s. Precise to some 100 km from the
-  /// eye. A place that is not finite has no wind.
+  /// eye. A place that is not finite, or farther than 4e9 m, has no wind.
   WindHere at(glm::dvec3 world) const;
 
   /// For WindTextures.
