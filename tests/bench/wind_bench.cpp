@@ -49,7 +49,10 @@ void at(benchmark::State& state) {
   for (int i = 0; i < state.range(0); ++i) (void)wind.add_source({.position = {-100, 10.0 * i}, .duration_s = 60});
   (void)wind.advance(10, {0, 0, 1.7});
   double x = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(wind.at({x += 0.37, 0.71 * x, 0}));
+  for (auto _ : state) {
+    x += 0.37;
+    benchmark::DoNotOptimize(wind.at({x, 0.71 * x, 0}));
+  }
 }
 
 }  // namespace
