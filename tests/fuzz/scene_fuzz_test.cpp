@@ -59,6 +59,8 @@ const std::vector<std::string> k_pieces{"[",
                                         "[[exclude]]\npolygon = [[0, 0], [4, 0], [0, 4]]\n",
                                         "[[wind.source]]\nposition_m = [1, 2]\nkind = \"whirlwind\"\n",
                                         "[[wind.mover]]\npath = [[0, 1, 2, 0], [3, 4, 5, 0]]\n",
+                                        "[[disturbance.event]]\nkind = \"cut\"\nposition_m = [1, 2]\n",
+                                        "[[disturbance.walker]]\npath = [[0, 1, 2], [1, 2, 3]]\n",
                                         "altitude_m = [1, 2]\nslope_deg = [3, 4]\n"};
 
 std::string mutate(std::string text, std::mt19937& random) {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "gl/twins.h"
+#include "host/disturbance_replay.h"
 #include "host/render_target.h"
 
 namespace sward {
@@ -425,6 +426,57 @@ TEST_F(DisturbanceGl, BurntIsBlackWetIsDarkerPaintIsSeenOnEveryKind) {
     const glm::dvec3 red = plants.color(tp.ground());
     EXPECT_GT(red.r, 1.8 * red.g) << int(kind);
     EXPECT_EQ(plants.color({}), dry) << int(kind);
+  }
+}
+
+// ---- A scene's own.
+
+constexpr const char* k_track = R"(
+[terrain]
+generator = "meadow"
+[disturbance]
+press_half_life_s = 40
+[[disturbance.walker]]
+path = [[1, 0, 0], [11, 14, 3], [14, 14, 8]]
+[[disturbance.walker]]
+gait = "wheels"
+track_m = 1.2
+path = [[0, 0, 10], [20, 40, 10]]
+[[disturbance.event]]
+kind = "explosion"
+time_s = 4.33
+position_m = [30, 0]
+[[disturbance.event]]
+kind = "cut"
+time_s = 2
+position_m = [-5, -5]
+to_m = [-5, 5]
+)";
+
+TEST_F(DisturbanceGl, ReplayIsTheSameAtEveryFrameRate) {
+  const auto scene = parse_scene(k_track, "track.toml");
+  ASSERT_TRUE(scene) << scene.error().message;
+  auto one = host::DisturbanceReplay::create(*scene), slow = host::DisturbanceReplay::create(*scene),
+       fast = host::DisturbanceReplay::create(*scene);
+  ASSERT_TRUE(one && slow && fast);
+  for (const double end : {12.0, 30.0, 12.0}) {  // back, too
+    ASSERT_TRUE(one->advance_to(end));
+    for (int i = 0; i <= int(end); ++i) ASSERT_TRUE(slow->advance_to(i));
+    for (int i = 0; i <= int(end * 240); ++i) ASSERT_TRUE(fast->advance_to(i / 240.0));
+    size_t pressed = 0;
+    for (double y = -6; y < 12; y += 0.23) {
+      for (double x = -6; x < 42; x += 0.23) {
+        const Disturbed a = one->disturbance().at({x, y}), b = slow->disturbance().at({x, y}),
+                        c = fast->disturbance().at({x, y});
+        // A foot that is coming down may be one tick of 1/256 s older.
+        EXPECT_LT(difference(a, b), 2e-3) << x << " " << y << " " << end;
+        EXPECT_LT(difference(a, c), 2e-3) << x << " " << y << " " << end;
+        pressed += glm::length(a.press) > 0.3f;
+      }
+    }
+    EXPECT_GT(pressed, 100u);
+    EXPECT_GT(one->disturbance().at({-5, 0}).cut, 0.7f);
+    EXPECT_GT(one->disturbance().at({30, 0}).burn, 0.9f);
   }
 }
 

@@ -246,7 +246,7 @@ TEST(Disturbance, CoarserLevelsHoldTheMean) {
     for (int x = -6; x < 10; ++x) {
       double cut = 0, burn = 0;
       for (int i = 0; i < 256; ++i) {
-        const Disturbed fine = tiles.cell(0, glm::ivec2(x, y) * 16 + glm::ivec2(i % 16, i / 16), clock);
+        const Disturbed fine = tiles.cell(0, glm::i64vec2(x * 16 + i % 16, y * 16 + i / 16), clock);
         cut += fine.cut / 256.0;
         burn += fine.burn / 256.0;
       }

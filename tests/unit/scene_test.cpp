@@ -658,6 +658,9 @@ TEST(Scene, ThePageDescribesEveryKey) {
   expect_described(scene_file::wind_schema(), page);
   expect_described(scene_file::wind_source_schema(), page);
   expect_described(scene_file::wind_mover_schema(), page);
+  expect_described(scene_file::disturbance_schema(), page);
+  expect_described(scene_file::walker_schema(), page);
+  expect_described(scene_file::event_schema(), page);
 }
 
 }  // namespace

@@ -34,6 +34,11 @@ Disturbed from_shared(const shared::Disturbed& d) {
   return {d.press, d.cut, d.burn, d.wet, d.paint};
 }
 
+/// False for what is no number.
+bool within_reach(glm::dvec2 place) {
+  return std::abs(place.x) <= Disturbance::k_most_place && std::abs(place.y) <= Disturbance::k_most_place;
+}
+
 /// The tiles of the finest level on which a brush is small enough; none where there is no such level.
 std::vector<TileKey> tiles_for(const DisturbanceBrush& brush) {
   for (int level = 0; level < k_tile_levels; ++level)
@@ -217,10 +222,9 @@ Disturbed Disturbance::at(glm::dvec2 place) const {
 
 // Twin of disturbed_here() in shaders/common_disturbance.glsl.
 Disturbed Disturbance::at(glm::dvec2 place, glm::dvec2 eye) const {
+  if (tiles_->map.empty() || !within_reach(place) || !within_reach(eye)) return {};
   const glm::dvec2 distance = glm::abs(place - eye);
   const double far = std::max(distance.x, distance.y);
-  if (tiles_->map.empty() || !(std::max(std::abs(place.x), std::abs(place.y)) <= k_most_place) || !std::isfinite(far))
-    return {};
   int level = 0;
   while (level < k_tile_levels && far >= level_reach(level)) ++level;
   if (level == k_tile_levels) return {};

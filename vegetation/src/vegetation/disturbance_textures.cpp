@@ -112,7 +112,8 @@ bool DisturbanceTextures::stale(const Disturbance& disturbance, glm::dvec2 eye) 
 }
 
 DisturbanceTextures::Upload DisturbanceTextures::upload(const Disturbance& disturbance, glm::dvec2 eye) {
-  SWARD_ASSERT(std::max(std::abs(eye.x), std::abs(eye.y)) <= Disturbance::k_most_place, "the eye must be within 1e9 m");
+  SWARD_ASSERT(std::abs(eye.x) <= Disturbance::k_most_place && std::abs(eye.y) <= Disturbance::k_most_place,
+               "the eye must be within 1e9 m");
   Upload written;
   const DisturbanceTiles& tiles = disturbance.tiles();
   if (stale(disturbance, eye)) {
@@ -171,7 +172,7 @@ void DisturbanceTextures::write_slot(const DisturbanceTiles& tiles, int level, g
   if (tile != nullptr) {
     int factor = 1;
     for (int l = level; l < found.level; ++l) factor *= k_level_factor;
-    fill_texels(tiles, *tile, place * k_tile_side - found.place * k_tile_side * factor, factor);
+    fill_texels(tiles, *tile, (place - found.place * factor) * k_tile_side, factor);
   }
   wanted.zero = std::ranges::all_of(texels_, [](uint16_t texel) { return texel == 0; });
   // Layers that were empty and stay so are left alone.

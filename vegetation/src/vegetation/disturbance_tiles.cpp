@@ -20,12 +20,14 @@ constexpr size_t k_node_bytes = 48;
 /// Ticks at which the epoch moves on: 180 days.
 constexpr double k_most_ticks = 4.0e9;
 
-int floor_div(int a, int b) {
+template <class T>
+T floor_div(T a, T b) {
   return a >= 0 ? a / b : -((-a + b - 1) / b);
 }
 
-glm::ivec2 floor_div(glm::ivec2 a, int b) {
-  return {floor_div(a.x, b), floor_div(a.y, b)};
+template <class T>
+glm::vec<2, T> floor_div(glm::vec<2, T> a, int b) {
+  return {floor_div(a.x, T(b)), floor_div(a.y, T(b))};
 }
 
 template <class Plane>
@@ -62,8 +64,9 @@ DisturbanceTile finer_tile(const DisturbanceTile& from, TileKey from_key, TileKe
   int factor = 1;
   for (int level = key.level; level < from_key.level; ++level) factor *= k_level_factor;
   for (int i = 0; i < k_tile_cells; ++i) {
-    const glm::ivec2 place = key.place * k_tile_side + glm::ivec2(i % k_tile_side, i / k_tile_side);
-    const glm::ivec2 at = floor_div(place, factor) - from_key.place * k_tile_side;
+    // Cells counted over the world would not fit into 32 bits.
+    const glm::ivec2 first = (key.place - from_key.place * factor) * k_tile_side;
+    const glm::ivec2 at = (first + glm::ivec2(i % k_tile_side, i / k_tile_side)) / factor;
     copy_cell(from, size_t(at.y * k_tile_side + at.x), to, size_t(i));
   }
   to.pressed = from.pressed;
@@ -115,12 +118,12 @@ const DisturbanceTile* DisturbanceTiles::holder(TileKey key, TileKey& found) con
   }
 }
 
-Disturbed DisturbanceTiles::cell(int level, glm::ivec2 place, const CellClock& clock) const {
+Disturbed DisturbanceTiles::cell(int level, glm::i64vec2 place, const CellClock& clock) const {
   for (; level < k_tile_levels; ++level, place = floor_div(place, k_level_factor)) {
-    const TileKey key{level, floor_div(place, k_tile_side)};
+    const TileKey key{level, glm::ivec2(floor_div(place, k_tile_side))};
     const DisturbanceTile* tile = find(key);
     if (tile == nullptr) continue;
-    const glm::ivec2 at = place - key.place * k_tile_side;
+    const glm::ivec2 at(place - glm::i64vec2(key.place) * int64_t(k_tile_side));
     return read_cell(*tile, at.y * k_tile_side + at.x, clock);
   }
   return {};
@@ -129,10 +132,10 @@ Disturbed DisturbanceTiles::cell(int level, glm::ivec2 place, const CellClock& c
 Disturbed DisturbanceTiles::sample(int level, glm::dvec2 place, const CellClock& clock) const {
   const glm::dvec2 cells = place / k_cell_m[level] - 0.5, whole = glm::floor(cells);
   const glm::vec2 t(cells - whole);
-  const glm::ivec2 corner(whole);
+  const glm::i64vec2 corner(whole);
   Disturbed sum;
   for (int i = 0; i < 4; ++i) {
-    const glm::ivec2 step(i & 1, i >> 1);
+    const glm::i64vec2 step(i & 1, i >> 1);
     const Disturbed d = cell(level, corner + step, clock);
     const float w = (step.x != 0 ? t.x : 1 - t.x) * (step.y != 0 ? t.y : 1 - t.y);
     sum.press += w * d.press;

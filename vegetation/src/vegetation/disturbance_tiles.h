@@ -14,6 +14,7 @@
 // only when it is touched. Times are ticks of 1/256 s since `epoch`, the first being 1.
 #include <sward/vegetation/disturbance.h>
 #include <array>
+#include <glm/ext/vector_int2_sized.hpp>
 #include <queue>
 #include <unordered_map>
 #include <vector>
@@ -120,7 +121,7 @@ struct DisturbanceTiles {
   /// The finest tile that holds a tile's ground: itself, else the nearest coarser; null: none does.
   const DisturbanceTile* holder(TileKey key, TileKey& found) const;
   /// What a cell (counted over the whole level) holds, from the finest tile that does.
-  Disturbed cell(int level, glm::ivec2 place, const CellClock& clock) const;
+  Disturbed cell(int level, glm::i64vec2 place, const CellClock& clock) const;
   /// Between cells, linearly.
   Disturbed sample(int level, glm::dvec2 place, const CellClock& clock) const;
 

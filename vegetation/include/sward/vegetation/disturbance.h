@@ -69,6 +69,8 @@ struct DisturbanceTiles;
 /// Memory: a tile that is only pressed takes 1.7 KB for 4 m2 of its finest level, one that is only cut or burnt 0.7 KB.
 /// At the limit the finest pressed tiles go first, oldest first, then coarser ones; their means remain one level up.
 /// Cut, burnt and painted tiles are never let go: where they alone fill the memory, brushes fail and change nothing.
+/// While it lasts regrowth takes 2 KB a tile more, beyond the limit where need be (at most four times it), for it is
+/// what frees memory.
 ///
 /// One thread at a time. Needs no GL. Move-only.
 class Disturbance {
