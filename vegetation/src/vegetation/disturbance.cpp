@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 
-// Ground that remembers. After J. Lee, "Infinite 3D terrain grass" (2010), the player's interaction with the grass, and
-// F. Gennari, "3DWorld: infinite grass" (2015), grass that is cut, crushed, burnt, wet and sprayed. Departure: both act
+// Ground that remembers. After E. Lee, "Realistic Real-Time Grass Rendering" (2010), the player's interaction with the grass, and
+// 3DWorld, "Infinite Fields of Grass" (2015), grass that is cut, crushed, burnt, wet and sprayed. Departure: both act
 // on what is drawn near by; here the ground keeps it, sparsely, wherever it was.
 
 #include <sward/vegetation/disturbance.h>

@@ -62,8 +62,8 @@ struct DisturbanceTiles;
 ///
 /// Press and water halve with every half-life since the last touch, worked out where they are read: nothing runs over
 /// the tiles, and results depend neither on step nor on frame rate (times are kept in 1/256 s). What is below 0.02 is
-/// not shown and is let go. Cuts, burns and paint stay until regrow(). After J. Lee, "Infinite 3D terrain grass"
-/// (2010; the player acts on the grass around it) and F. Gennari's 3DWorld (2015: cut, crushed, burnt, wet, sprayed
+/// not shown and is let go. Cuts, burns and paint stay until regrow(). After E. Lee, "Realistic Real-Time Grass Rendering"
+/// (2010; the player acts on the grass around it) and 3DWorld, "Infinite Fields of Grass" (2015: cut, crushed, burnt, wet, sprayed
 /// grass), which update vertices instead.
 ///
 /// Memory: a tile that is only pressed takes 1.7 KB for 4 m2 of its finest level, one that is only cut or burnt 0.7 KB.
