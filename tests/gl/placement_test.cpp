@@ -363,6 +363,24 @@ TEST_F(Placement, ARegionListsWhatTheGpuDraws) {
   const double most = double(std::max(gpu.size(), cpu.size()));
   EXPECT_GE(double(same), 0.998 * most - 1) << gpu.size() << " drawn, " << cpu.size() << " listed";
 
+  // What is mown is as high as that, and stands where it stood.
+  auto disturbance = Disturbance::create();
+  ASSERT_TRUE(disturbance && disturbance->cut_capsule({-10, -1}, {10, -1}, 2, 0.05f));
+  const auto mown =
+      query_plants(layer, surface, map, region, {.exclusions = &exclusions, .disturbance = &*disturbance});
+  ASSERT_TRUE(mown);
+  ASSERT_EQ(mown->size(), listed->size());
+  size_t shorter = 0;
+  for (size_t i = 0; i < mown->size(); ++i) {
+    const Plant &before = (*listed)[i], &after = (*mown)[i];
+    EXPECT_TRUE(before.position == after.position && before.triangle.bits == after.triangle.bits);
+    const double away = std::abs(before.position.y + 1);
+    if (away < 1.8) { EXPECT_LE(after.height, 0.06f); }
+    if (away > 2.2) { EXPECT_EQ(after.height, before.height); }
+    shorter += after.height < before.height;
+  }
+  EXPECT_GT(shorter, 200u);
+
   const auto too_many = query_plants(layer, surface, map, region, {.most_plants = 10});
   ASSERT_FALSE(too_many);
   EXPECT_NE(too_many.error().message.find("more than 10 plants"), std::string::npos);
