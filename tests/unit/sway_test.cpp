@@ -220,6 +220,18 @@ TEST(Sway, CyclesKeepTheirRateAndEndWhereTheyStart) {
   }
 }
 
+TEST(Sway, NoiseHasADirectionOfItsOwnForEachPlant) {
+  glm::vec2 sum(0);
+  for (int i = 0; i < 400; ++i) {
+    const glm::vec2 own = shared::own_noise({0.2f, 0}, float(i) / 400);
+    EXPECT_NEAR(glm::length(own), 0.2f / 1.12f, 1e-5f);
+    sum += own / 400.0f;
+  }
+  EXPECT_LT(glm::length(sum), 0.002f);
+  // And what is too quick for plants stays below the wind that carries it.
+  EXPECT_LT(glm::length(shared::own_noise({30, 0}, 0.1f)), 1.0f / 0.6f);
+}
+
 /// Ways of neighbours' tips along the wind, sampled for a minute, in a sward::Wind.
 std::vector<std::vector<double>> neighbours(const Weather& weather, glm::vec2 along, int count) {
   Wind wind;
