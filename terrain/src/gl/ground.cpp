@@ -90,6 +90,10 @@ Expected<GroundTextures> GroundTextures::create(const Lattice& lattice, const Co
   const DisturbanceBlock nothing;
   ground.undisturbed_ = create_buffer();
   glNamedBufferStorage(ground.undisturbed_.id(), sizeof nothing, &nothing, 0);
+  // A texture of its own: drivers warn of units that a program could read and that have none.
+  ground.untouched_map_ = create_texture(GL_TEXTURE_2D_ARRAY);
+  glTextureStorage3D(ground.untouched_map_.id(), 1, GL_RGBA16F, 1, 1, 1);
+  glClearTexImage(ground.untouched_map_.id(), 0, GL_RGBA, GL_FLOAT, nullptr);
   ground.base_map_ = make_base_map(colors);
   ground.base_map_raw_ = make_raw_view(ground.base_map_.id());
   if (Expected<void> empty = ground.set_materials({}); !empty) return tl::unexpected(empty.error());

@@ -40,9 +40,9 @@ class GroundTextures {
   /// What has touched the ground, for terrain and all plants that are drawn with these textures (DisturbanceTextures in
   /// the vegetation library); {}: nothing, as after creation. The objects must live while anything is drawn.
   void set_disturbed(const DisturbedGround& disturbed) { disturbed_ = disturbed; }
-  /// Uniform buffer SwardDisturbance, and its texture or 0.
+  /// Uniform buffer SwardDisturbance and its texture; where nothing is disturbed, ones that say so.
   DisturbedGround disturbed() const {
-    return disturbed_.block != 0 ? disturbed_ : DisturbedGround{undisturbed_.id(), 0};
+    return disturbed_.block != 0 ? disturbed_ : DisturbedGround{undisturbed_.id(), untouched_map_.id()};
   }
 
   GLuint materials() const { return materials_.id(); }        ///< SwardMaterials, a uniform buffer
@@ -63,7 +63,7 @@ class GroundTextures {
   static Expected<GroundTextures> create(const Lattice& lattice, const ColorMap& colors, Expected<SlopeMap> slopes);
 
   SlopeMap slopes_;
-  Texture base_map_, base_map_raw_, detail_, detail_slope_;
+  Texture base_map_, base_map_raw_, detail_, detail_slope_, untouched_map_;
   Buffer materials_, undisturbed_;
   DisturbedGround disturbed_;
   glm::dvec2 map_min_{0}, map_size_{1}, data_min_{0}, data_max_{0};
