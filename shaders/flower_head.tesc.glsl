@@ -88,8 +88,6 @@ void write_head(SpeciesParams species, Triangle triangle, Seedling s) {
 #else
   vec2 azimuth = vec2(cos(stem.azimuth), sin(stem.azimuth));
   BladeCurve curve = free_curve(stem.stiffness, stem.lean, -dot(normal.xy, azimuth) / normal.z);
-#endif
-#if !SWARD_WIND
   curve.contact = find_contact(curve);
 #endif
   BladePoint end = curve_point(curve, 1.0);

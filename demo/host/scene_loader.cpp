@@ -5,6 +5,7 @@
 
 #include <sward/gl/program_binaries.h>
 #include <chrono>
+#include <exception>
 
 namespace sward::host {
 
@@ -29,7 +30,13 @@ void SceneLoader::start(std::function<Expected<SceneSource>()> read, gl::ShaderL
                        [context = context_, read = std::move(read), shaders = std::move(shaders)]() mutable {
                          if (!context.make_current())
                            return Expected<LoadedScene>(fail("the loader's context cannot be made current"));
-                         auto loaded = load(read, std::move(shaders));
+                         Expected<LoadedScene> loaded = fail("nothing was loaded");
+                         try {
+                           loaded = load(read, std::move(shaders));
+                         } catch (const std::exception& exception) {
+                           // Of libraries, or of memory: what is drawn goes on.
+                           loaded = fail(exception.what());
+                         }
                          // What the other thread takes over has to be there.
                          glFinish();
                          context.release();

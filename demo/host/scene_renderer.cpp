@@ -248,6 +248,8 @@ Expected<void> SceneRenderer::Impl::follow(const View& view, double time_s, Scen
 
 // What has touched the ground by now; nothing is made before the first touch.
 Expected<void> SceneRenderer::Impl::disturb(const View& view, double time_s) {
+  if (glm::any(glm::greaterThan(glm::abs(glm::dvec2(view.eye)), glm::dvec2(Disturbance::k_most_place))))
+    return fail("the eye is more than 1e9 m from the origin, where no ground remembers");
   if (auto replayed = replay->advance_to(time_s); !replayed) return replayed;
   if (replay->disturbance().revision() == 0) return {};
   if (!disturbed) {
@@ -346,10 +348,13 @@ Expected<void> SceneRenderer::try_programs(const Scene& scene, const SceneTerrai
   if (!library) return tl::unexpected(library.error());
   auto programs = build_programs(scene.layers, scene.source, terrain, *library, bindings);
   if (!programs) return tl::unexpected(programs.error());
-  if (!scene.wind) return {};
+  // A host may ask for a wind, arrows and balls at any time.
   const auto wind = WindTextures::create();
   if (!wind) return tl::unexpected(wind.error());
-  return set_wind_of(*programs, &*wind);
+  if (auto set = set_wind_of(*programs, &*wind); !set) return set;
+  if (auto arrows = WindOverlay::create(shaders, bindings); !arrows) return tl::unexpected(arrows.error());
+  if (auto balls = BallRenderer::create(shaders, bindings); !balls) return tl::unexpected(balls.error());
+  return {};
 }
 
 Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTerrain& terrain,
@@ -510,17 +515,6 @@ Disturbance& SceneRenderer::disturbance() {
 
 Exclusions& SceneRenderer::exclusions() {
   return impl_->cpu.exclusions();
-}
-
-Expected<void> SceneRenderer::reload(const gl::ShaderLibrary& shaders) {
-  auto library = with_kinds(shaders, impl_->layers, impl_->directory);
-  if (!library) return tl::unexpected(library.error());
-  auto programs = build_programs(impl_->layers, impl_->source(), impl_->terrain, *library, impl_->bindings);
-  if (!programs) return tl::unexpected(programs.error());
-  if (auto set = set_wind_of(*programs, impl_->wind); !set) return set;
-  impl_->programs = std::move(*programs);
-  impl_->shaders = std::move(*library);
-  return {};
 }
 
 RoamMesh& SceneRenderer::mesh() {

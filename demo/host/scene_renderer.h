@@ -98,8 +98,6 @@ class SceneRenderer {
   /// What has touched the ground: the scene's own, replayed to each frame's time, and whatever the host adds between
   /// frames (`disturbance().press_capsule(...)`); the next frame shows it. Time passes with draw()'s.
   Disturbance& disturbance();
-  /// Builds every program from `shaders`, then swaps them all in. On an error the old ones stay.
-  Expected<void> reload(const gl::ShaderLibrary& shaders);
 
   /// On a clipmap it stays as it was made.
   RoamMesh& mesh();

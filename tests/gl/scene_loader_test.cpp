@@ -69,6 +69,14 @@ TEST_F(SceneLoaderTest, DrawsWhatAnotherContextHasPrepared) {
   auto prepared = host::SceneRenderer::create(loaded->source.scene, *loaded->source.terrain, std::move(loaded->ground),
                                               loaded->shaders);
   ASSERT_TRUE(prepared) << prepared.error().message;
+  // Whatever may be asked of it later was built beside, too.
+  prepared->wind();
+  const auto texts = loaded->shaders.binaries()->binaries().size();
+  picture(*prepared, loaded->source);
+  EXPECT_EQ(loaded->shaders.binaries()->binaries().size(), texts) << "a program was compiled here";
+  if (texts > 0) {
+    EXPECT_GT(loaded->shaders.binaries()->taken(), 5u);
+  }
   auto plain = host::SceneRenderer::create(loaded->source.scene, *loaded->source.terrain, gl::ShaderLibrary());
   ASSERT_TRUE(plain) << plain.error().message;
   EXPECT_EQ(picture(*prepared, loaded->source), picture(*plain, loaded->source));
@@ -81,8 +89,6 @@ TEST_F(SceneLoaderTest, TellsWhatIsWrongAndLoadsAgain) {
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error().message, "scene.toml:3: wrong");
 
-  gl::ShaderLibrary broken;
-  broken.add_source("plant_kind.glsl", "");
   const auto folder = std::filesystem::temp_directory_path() / "sward_scene_loader_test";
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "grass_blade.frag.glsl") << "void main() { nothing(); }\n";

@@ -371,9 +371,9 @@ TEST(Wind, ExtremesStayFinite) {
     source.velocity_m_s = {120, -120};
     source.start_s = -1e6;
     source.duration_s = source.repeat_s = 1e6;
-    source.rise_s = 1e-9;
+    source.rise_s = 0.001;
     source.outward_m_s = source.around_m_s = 120;
-    source.radius_m = 1e-6f;
+    source.radius_m = 0.01f;
     source.falloff = 4;
     source.reach_m = 100000;
     source.travel_m_s = 0.1f;
@@ -382,6 +382,14 @@ TEST(Wind, ExtremesStayFinite) {
     ASSERT_TRUE(wind.add_source(source));
   }
   ASSERT_TRUE(wind.set_painted(painted(1, 1, {{-4, 4}})));
+  WindMover mover;
+  mover.radius_m = 0.01f;
+  mover.strength = 4;
+  const auto small = wind.add_mover(mover);
+  ASSERT_TRUE(small);
+  ASSERT_TRUE(wind.move(*small, {300, -300}, 0));
+  mover.radius_m = 1e-40f;
+  EXPECT_FALSE(wind.add_mover(mover)) << "a radius whose inverse floats do not hold";
   for (const double seconds : {0.0, 1e-9, 0.1, 1e9}) {
     for (const glm::dvec3 eye : {k_eye, glm::dvec3(1e9, -1e9, 1e9), glm::dvec3(0)}) {
       ASSERT_TRUE(wind.advance(seconds, eye));

@@ -87,6 +87,7 @@ Expected<void> Play::hover(bool toggled, const WalkCamera& camera, const Surface
     rotor_.reset();
     return {};
   }
+  if (!toggled && !rotor_) return {};
   const glm::dvec2 below = looked_at(camera, ground);
   if (toggled) {
     WindMover rotor;
@@ -97,7 +98,6 @@ Expected<void> Play::hover(bool toggled, const WalkCamera& camera, const Surface
     rotor.strength = k_rotor_m_s;
     return keep(rotor_, renderer.wind().add_mover(rotor));
   }
-  if (!rotor_) return {};
   Expected<void> done = renderer.wind().move(*rotor_, below, float(k_rotor_above_m));
   note(done, renderer.disturbance().rotor_wash(below, 1.5 * k_rotor_m, 0.35f));
   return done;
@@ -105,6 +105,7 @@ Expected<void> Play::hover(bool toggled, const WalkCamera& camera, const Surface
 
 Expected<void> Play::act(const PlayInput& input, const WalkCamera& camera, const Surface& ground,
                          host::SceneRenderer& renderer) {
+  if (!input.any()) return {};
   const glm::dvec2 at = looked_at(camera, ground), here(camera.position);
   Disturbance& disturbance = renderer.disturbance();
   Expected<void> done;

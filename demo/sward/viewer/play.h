@@ -16,6 +16,7 @@ namespace sward::tool {
 struct PlayInput {
   bool cut = false, burn = false, explode = false, regrow = false;
   bool gust = false, whirlwind = false, rotor = false, ball = false;
+  bool any() const { return cut || burn || explode || regrow || gust || whirlwind || rotor || ball; }
 };
 
 /// What a person does to the wind and to the ground: walking tramples and stirs the air, keys act on the place looked
@@ -27,7 +28,6 @@ class Play {
   Expected<void> follow(const PlayInput& input, const WalkCamera& camera, double seconds, const Surface& ground,
                         host::SceneRenderer& renderer);
   const std::vector<host::RollingBall>& balls() const { return balls_; }
-  bool rotor_on() const { return rotor_.has_value(); }
 
  private:
   Expected<void> walk(const WalkCamera& camera, host::SceneRenderer& renderer);

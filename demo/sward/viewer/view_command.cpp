@@ -117,6 +117,7 @@ struct Shown {
   std::optional<host::SceneRenderer> renderer;
   PanelState panel;
   Play play;
+  Clock::time_point since = Clock::now();  // the scene's time 0
 };
 
 PlayInput play_input(Window& window) {
@@ -156,7 +157,8 @@ class Reloader {
 
   // Once a frame; `asked`: by a key.
   void follow(bool asked, Shown& shown) {
-    wanted_ = wanted_ || asked || watch_.changed();
+    const bool changed = watch_.changed();
+    wanted_ = wanted_ || asked || changed;
     if (wanted_ && !loader_.busy()) start(shown);
     if (auto loaded = loader_.take()) finish(std::move(*loaded), shown);
   }
@@ -185,6 +187,7 @@ class Reloader {
     shown.scene = std::move(loaded->source.scene);
     shown.panel = start_panel(shown.scene);
     shown.play = Play();
+    shown.since = Clock::now();
     const auto ms = [](Clock::time_point from, Clock::time_point to) {
       return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(to - from).count()) + " ms";
     };
@@ -202,8 +205,7 @@ class Reloader {
 Expected<void> run_window(Window& window, const ViewOptions& options, Reloader& reloader, Shown& shown) {
   WalkCamera camera = start_camera(shown.scene, *shown.terrain);
   host::SceneFrameStats stats;
-  const Clock::time_point start = Clock::now();
-  Clock::time_point last = start;
+  Clock::time_point last = shown.since;
   for (int frame = 0; !window.closing() && frame < options.frames.value_or(frame + 1); ++frame) {
     const Clock::time_point now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - last).count();
@@ -219,12 +221,12 @@ Expected<void> run_window(Window& window, const ViewOptions& options, Reloader& 
     auto played = shown.play.follow(play_input(window), camera, std::min(seconds, 0.1), shown.terrain->surface(),
                                     *shown.renderer);
     if (!played) shown.panel.message = played.error().message;
-    if (auto set = shown.renderer->set_balls(shown.play.balls()); !set) return set;
+    if (auto set = shown.renderer->set_balls(shown.play.balls()); !set) shown.panel.message = set.error().message;
 
     const glm::ivec2 size = window.framebuffer_size();
     if (size.x > 0 && size.y > 0) {
       begin_picture(size);
-      const double time_s = std::chrono::duration<double>(now - start).count();
+      const double time_s = std::max(std::chrono::duration<double>(now - shown.since).count(), 0.0);
       auto drawn = shown.renderer->draw(camera.view(size, shown.terrain->surface()), panel_lighting(shown.panel),
                                         time_s, 0, window.samples(), false);
       if (!drawn) return tl::unexpected(drawn.error());
@@ -244,6 +246,9 @@ Expected<void> view(const ViewOptions& options) {
   if (!scene) return tl::unexpected(scene.error());
   auto shaders = make_shaders(options.scene);
   if (!shaders) return tl::unexpected(shaders.error());
+  std::error_code ignored;
+  if (options.watch && options.scene.shaders.empty() && !std::filesystem::is_regular_file(options.scene.scene, ignored))
+    return fail("--watch needs a file to watch: name a scene file, or a folder of shaders with --shaders");
   auto window = Window::open("sward - " + scene->name, *size, *samples == 0 ? k_many_samples : *samples);
   if (!window) return tl::unexpected(window.error());
   GLint most = 0;
@@ -257,7 +262,7 @@ Expected<void> view(const ViewOptions& options) {
   auto renderer = host::SceneRenderer::create(*scene, **terrain, *shaders);
   if (!renderer) return tl::unexpected(renderer.error());
   PanelState panel = start_panel(*scene);
-  Shown shown{std::move(*scene), std::move(*terrain), std::move(*renderer), std::move(panel), {}};
+  Shown shown{std::move(*scene), std::move(*terrain), std::move(*renderer), std::move(panel), {}, Clock::now()};
   Reloader reloader(options, std::move(*context));
   return run_window(*window, options, reloader, shown);
 }
@@ -281,7 +286,9 @@ Command add_view(CLI::App& parent) {
       ->type_name("N|max")
       ->check(as_check(parse_samples))
       ->capture_default_str();
-  app->add_flag("--watch", options->watch, "Reload when the scene's file or one in --shaders is written, as F5 does");
+  app->add_flag(
+      "--watch", options->watch,
+      "Reload when the scene's file or one in --shaders is written, as F5 does: all but the camera begins anew");
   app->add_option("--frames", options->frames, "Close after so many frames")->type_name("N");
   return {app, [options] { return view(*options); }};
 }

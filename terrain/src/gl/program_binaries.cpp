@@ -3,7 +3,22 @@
 
 #include <sward/gl/program_binaries.h>
 
+#include <algorithm>
+
 namespace sward::gl {
+
+namespace {
+
+/// Others would be an error of the GL, which is the host's to see.
+bool driver_takes(GLenum format) {
+  GLint count = 0;
+  glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &count);
+  std::vector<GLint> formats(size_t(std::max(count, 0)));
+  if (!formats.empty()) glGetIntegerv(GL_PROGRAM_BINARY_FORMATS, formats.data());
+  return std::ranges::find(formats, GLint(format)) != formats.end();
+}
+
+}  // namespace
 
 Program ProgramBinaries::take(const std::string& text) const {
   Binary binary;
@@ -13,6 +28,7 @@ Program ProgramBinaries::take(const std::string& text) const {
     if (found == binaries_.end()) return Program();
     binary = found->second;
   }
+  if (!driver_takes(binary.format)) return Program();
   Program program(glCreateProgram());
   glProgramBinary(program.id(), binary.format, binary.bytes.data(), GLsizei(binary.bytes.size()));
   GLint linked = GL_FALSE;

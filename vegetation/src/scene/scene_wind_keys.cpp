@@ -169,10 +169,10 @@ const Schema<SceneWindSource>& wind_source_schema() {
        of(&S::source, pair("velocity_m_s", &W::velocity_m_s, within(-120, 120), "metres a second")),
        of(&S::source, number("start_s", &W::start_s, within(-1e9, 1e9), "seconds")),
        of(&S::source, number("duration_s", &W::duration_s, above_to(0, 1e6), "seconds")),
-       of(&S::source, number("rise_s", &W::rise_s, above_to(0, 5e5), "seconds")),
+       of(&S::source, number("rise_s", &W::rise_s, within(0.001, 500000), "seconds")),
        of(&S::source, number("repeat_s", &W::repeat_s, above_to(0, 1e6), "seconds")),
        number("speed_m_s", &S::speed_m_s, within(-120, 120), "metres a second"),
-       of(&S::source, number("radius_m", &W::radius_m, above_to(0, 10000), "metres")),
+       of(&S::source, number("radius_m", &W::radius_m, within(0.01, 10000), "metres")),
        of(&S::source, number("reach_m", &W::reach_m, above_to(0, 100000), "metres")),
        of(&S::source, number("falloff", &W::falloff, within(0, 4))),
        of(&S::source, number("travel_m_s", &W::travel_m_s, within(0.1, 1000), "metres a second")),
@@ -188,7 +188,7 @@ const Schema<SceneWindMover>& wind_mover_schema() {
   static const Schema<S> schema{
       "[[wind.mover]]",
       {of(&S::mover, choice<M, M::Kind>("kind", &M::kind, {{"body", M::Kind::body}, {"rotor", M::Kind::rotor}})),
-       of(&S::mover, number("radius_m", &M::radius_m, above_to(0, 50), "metres")),
+       of(&S::mover, number("radius_m", &M::radius_m, within(0.01, 50), "metres")),
        of(&S::mover, number("share", &M::strength, within(0, 4))),
        of(&S::mover, number("wash_m_s", &M::strength, within(0, 120), "metres a second")), path_key()},
       check_mover};

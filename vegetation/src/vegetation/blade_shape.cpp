@@ -151,7 +151,9 @@ double blade_k_prime(double stiffness) {
   return critical * (1.0 - s * s);
 }
 
-Expected<BladeShapes> make_blade_shapes() {
+namespace {
+
+Expected<BladeShapes> solve_blade_shapes() {
   BladeShapes shapes;
   shapes.texels.resize(size_t(k_blade_rows) * size_t(k_blade_columns));
   for (int column = 0; column < k_blade_columns; ++column) {
@@ -161,6 +163,13 @@ Expected<BladeShapes> make_blade_shapes() {
     const std::vector<glm::vec4> rows = lay_out(*phi);
     for (size_t row = 0; row < rows.size(); ++row) shapes.texels[row * k_blade_columns + size_t(column)] = rows[row];
   }
+  return shapes;
+}
+
+}  // namespace
+
+Expected<BladeShapes> make_blade_shapes() {
+  static const Expected<BladeShapes> shapes = solve_blade_shapes();
   return shapes;
 }
 

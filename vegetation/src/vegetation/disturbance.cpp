@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 
-// Ground that remembers. After E. Lee, "Realistic Real-Time Grass Rendering" (2010), the player's interaction with the grass, and
-// 3DWorld, "Infinite Fields of Grass" (2015), grass that is cut, crushed, burnt, wet and sprayed. Departure: both act
-// on what is drawn near by; here the ground keeps it, sparsely, wherever it was.
+// Ground that remembers. After E. Lee, "Realistic Real-Time Grass Rendering" (2010), the player's interaction with the
+// grass, and 3DWorld, "Infinite Fields of Grass" (2015), grass that is cut, crushed, burnt, wet and sprayed. Departure:
+// both act on what is drawn near by; here the ground keeps it, sparsely, wherever it was.
 
 #include <sward/vegetation/disturbance.h>
 
@@ -46,7 +46,23 @@ std::vector<TileKey> tiles_for(const DisturbanceBrush& brush) {
   return {};
 }
 
-/// Bytes that new planes of these tiles, and of those above them, may take.
+/// Tiles below these: where they are they show their own cells.
+std::vector<TileKey> finer_tiles(const DisturbanceTiles& tiles, const std::vector<TileKey>& keys) {
+  std::vector<TileKey> finer;
+  if (keys.front().level == 0) return finer;
+  std::vector<uint64_t> reached;
+  for (const TileKey& key : keys) reached.push_back(key.packed());
+  std::ranges::sort(reached);
+  for (const auto& [packed, tile] : tiles.map) {
+    const TileKey key = TileKey::unpack(packed);
+    TileKey above = key;
+    while (above.level < keys.front().level) above = above.parent();
+    if (above != key && std::ranges::binary_search(reached, above.packed())) finer.push_back(key);
+  }
+  return finer;
+}
+
+/// Bytes that new planes of these tiles, and of those above and below them, may take.
 size_t bytes_needed(const DisturbanceTiles& tiles, const std::vector<TileKey>& keys, const PlaneSet& planes) {
   const auto missing = [&](TileKey key) {
     const DisturbanceTile* tile = tiles.find(key);
@@ -62,6 +78,7 @@ size_t bytes_needed(const DisturbanceTiles& tiles, const std::vector<TileKey>& k
            PlaneSet{}.bytes();
   };
   size_t bytes = 0;
+  for (const TileKey& key : finer_tiles(tiles, keys)) bytes += missing(key);
   std::vector<TileKey> level = keys;
   while (!level.empty()) {
     std::vector<TileKey> above;
@@ -92,17 +109,10 @@ bool brush_one(DisturbanceTiles& tiles, const DisturbanceBrush& brush, const Dis
   return false;
 }
 
-/// Finer tiles that are there show their own cells.
 void brush_finer(DisturbanceTiles& tiles, const DisturbanceBrush& brush, const DisturbanceTouch& touch,
                  const std::vector<TileKey>& keys) {
-  std::vector<uint64_t> reached;
-  for (const TileKey& key : keys) reached.push_back(key.packed());
-  std::ranges::sort(reached);
-  for (auto& [packed, tile] : tiles.map) {
-    const TileKey key = TileKey::unpack(packed);
-    TileKey above = key;
-    while (above.level < keys.front().level) above = above.parent();
-    if (above == key || !std::ranges::binary_search(reached, above.packed())) continue;
+  for (const TileKey& key : finer_tiles(tiles, keys)) {
+    DisturbanceTile& tile = tiles.map.at(key.packed());
     const size_t before = tile.bytes();
     if (brush_tile(brush, touch, key, tile, tiles.clock())) tiles.changed(key, tile, before);
   }

@@ -13,6 +13,9 @@ namespace sward {
 namespace {
 
 constexpr double k_farthest_m = 1e9;
+// What is smaller has no place in floats' sums.
+constexpr double k_least_radius_m = 0.0099999;
+constexpr double k_least_rise_s = 0.001;
 
 std::string number(double value) {
   char buffer[32];
@@ -71,11 +74,11 @@ Expected<void> validate(const WindSource& s) {
       .within("velocity_m_s.y", s.velocity_m_s.y, -120, 120)
       .within("start_s", s.start_s, -1e12, 1e12)
       .above("duration_s", s.duration_s, 0, 1e6)
-      .above("rise_s", s.rise_s, 0, 0.5 * s.duration_s);
+      .within("rise_s", s.rise_s, k_least_rise_s, 0.5 * s.duration_s);
   if (s.repeat_s != 0) faults.within("repeat_s", s.repeat_s, s.duration_s, 1e6);
   return faults.within("outward_m_s", double(s.outward_m_s), -120, 120)
       .within("around_m_s", double(s.around_m_s), -120, 120)
-      .above("radius_m", double(s.radius_m), 0, 10000)
+      .within("radius_m", double(s.radius_m), k_least_radius_m, 10000)
       .within("falloff", double(s.falloff), 0, 4)
       .above("reach_m", double(s.reach_m), double(s.radius_m), 100000)
       .within("travel_m_s", double(s.travel_m_s), 0.1f, 1000)
@@ -88,7 +91,7 @@ Expected<void> validate(const WindMover& m) {
   return Faults()
       .place("position", m.position)
       .within("above_ground_m", double(m.above_ground_m), 0, 10000)
-      .above("radius_m", double(m.radius_m), 0, 50)
+      .within("radius_m", double(m.radius_m), k_least_radius_m, 50)
       .within("strength", double(m.strength), 0, m.kind == WindMover::Kind::body ? 4 : 120)
       .result("wind mover");
 }

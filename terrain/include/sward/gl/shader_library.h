@@ -48,6 +48,8 @@ class ShaderLibrary {
   void add_source(std::string name, std::string text);
   /// build() takes programs from these where they have them, and adds what it links.
   void set_binaries(std::shared_ptr<ProgramBinaries> binaries) { binaries_ = std::move(binaries); }
+  /// Null: none.
+  const std::shared_ptr<ProgramBinaries>& binaries() const { return binaries_; }
 
   /// `#version 450 core`, the defines, then the file. Any thread; needs no context. Errors name file and line.
   Expected<ResolvedSource> resolve(std::string_view file, std::span<const Define> defines) const;

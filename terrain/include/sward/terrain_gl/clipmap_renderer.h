@@ -16,10 +16,10 @@ class ClipmapRenderer {
   static Expected<ClipmapRenderer> create(const gl::ShaderLibrary& shaders, const gl::Bindings& bindings = {});
 
   /// Draws the blocks of the rings that may be seen into the bound framebuffer with one indexed, instanced draw, after
-  /// a follow() for this view. Binds: program, vertex array, uniform buffers bindings.frame, bindings.clipmap, textures
-  /// bindings.base_map, bindings.slope_map, bindings.detail, bindings.detail_slope,
-  /// bindings.disturbance_map, the uniform buffers bindings.materials, bindings.disturbance, bindings.clipmap_heights, bindings.clipmap_relief (the last two without sampler). Sets:
-  /// nothing else; the host chooses as with TerrainRenderer::draw(). Leaves: program 0, vertex array 0, those texture
+  /// a follow() for this view. Binds: program, vertex array, uniform buffers bindings.frame, bindings.clipmap,
+  /// bindings.materials, bindings.disturbance, textures bindings.base_map, bindings.slope_map, bindings.detail,
+  /// bindings.detail_slope, bindings.disturbance_map, bindings.clipmap_heights, bindings.clipmap_relief (the last two
+  /// without sampler). Sets nothing else; the host chooses as with TerrainRenderer::draw(). Leaves: program 0, vertex array 0, those texture
   /// units, their samplers and those uniform buffer bindings 0. Cost: 16 bytes a block are written, some hundred
   /// blocks.
   void draw(const View& view, const gl::Clipmap& clipmap, const gl::Frame& frame, const gl::GroundTextures& ground);

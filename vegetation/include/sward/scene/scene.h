@@ -26,15 +26,15 @@ glm::vec3 ground_tint(std::span<const GroundSeason> frames, float season);
 
 /// A body that a layer with Layer::on_mesh covers: a file's mesh or a generated one (generate_mesh_shape).
 struct SceneSurface {
-  std::string layer;            ///< Name of the layer that covers it.
-  std::string shape;            ///< "box_hedge", "topiary"; or empty, and
-  std::string mesh_path;        ///< an OBJ, PLY or OFF file.
-  glm::vec3 size_m{1.0f};       ///< Of a shape.
-  uint32_t seed = 1;            ///< Of a shape.
-  glm::dvec3 position{0.0};     ///< Of the mesh's origin.
-  bool above_ground = true;     ///< position.z counts from the ground below the origin.
-  bool drape = false;           ///< It counts from the ground below each vertex.
-  double yaw = 0;               ///< Radians, counter-clockwise.
+  std::string layer;         ///< Name of the layer that covers it.
+  std::string shape;         ///< "box_hedge", "topiary"; or empty, and
+  std::string mesh_path;     ///< an OBJ, PLY or OFF file.
+  glm::vec3 size_m{1.0f};    ///< Of a shape.
+  uint32_t seed = 1;         ///< Of a shape.
+  glm::dvec3 position{0.0};  ///< Of the mesh's origin.
+  bool above_ground = true;  ///< position.z counts from the ground below the origin.
+  bool drape = false;        ///< It counts from the ground below each vertex.
+  double yaw = 0;            ///< Radians, counter-clockwise.
   double scale = 1;
   std::optional<glm::vec3> color;  ///< sRGB, 0..1, in place of the vertex colours.
 };
@@ -51,16 +51,16 @@ struct SceneMaterial {
   std::string species;      ///< Whose reference colour and weights it has; empty: its own.
   std::string detail_file;  ///< An image in place of the generated detail; empty: none. As all paths, not loaded.
   std::string cliff_file;
-  std::string where;        ///< "FILE:LINE", for errors of the images.
+  std::string where;  ///< "FILE:LINE", for errors of the images.
 };
 
 /// Something that goes along a path and presses the plants: a person, a vehicle.
 struct SceneWalker {
-  bool wheels = false;    ///< Two unbroken tracks instead of steps.
-  float radius_m = 0.14f; ///< Of a foot, half the width of a wheel's track.
-  float weight = 0.9f;    ///< How far plants are laid down, 0..1.
-  float track_m = 0.22f;  ///< Between left and right.
-  float step_m = 0.7f;    ///< From a foot to the other.
+  bool wheels = false;           ///< Two unbroken tracks instead of steps.
+  float radius_m = 0.14f;        ///< Of a foot, half the width of a wheel's track.
+  float weight = 0.9f;           ///< How far plants are laid down, 0..1.
+  float track_m = 0.22f;         ///< Between left and right.
+  float step_m = 0.7f;           ///< From a foot to the other.
   std::vector<glm::dvec3> path;  ///< Time (s), world x, y (m): times rise; straight and at one speed in between.
 };
 
@@ -69,8 +69,8 @@ struct SceneEvent {
   enum class Kind { explosion, cut, burn, wet, paint, rotor };
   Kind kind = Kind::explosion;
   double time_s = 0;
-  glm::dvec2 position{0};             ///< World x, y.
-  std::optional<glm::dvec2> to;       ///< The other end of a strip; not for explosion and rotor.
+  glm::dvec2 position{0};        ///< World x, y.
+  std::optional<glm::dvec2> to;  ///< The other end of a strip; not for explosion and rotor.
   double radius_m = 3;
   float amount = 1;                   ///< Of burn, wet, paint, rotor, 0..1.
   float height_m = 0.05f;             ///< That a cut leaves.
@@ -79,9 +79,9 @@ struct SceneEvent {
 
 /// What has touched the ground before and what touches it as time goes on.
 struct SceneDisturbance {
-  std::string file;                                    ///< That Disturbance::save() wrote; empty: none.
+  std::string file;                                      ///< That Disturbance::save() wrote; empty: none.
   float press_half_life_s = 300, wet_half_life_s = 900;  ///< As DisturbanceOptions.
-  double memory_mb = 64;                               ///< DisturbanceOptions::memory_limit in 2^20 bytes.
+  double memory_mb = 64;                                 ///< DisturbanceOptions::memory_limit in 2^20 bytes.
   std::vector<SceneWalker> walkers;
   std::vector<SceneEvent> events;
 };
@@ -111,7 +111,7 @@ struct Scene {
   uint32_t max_triangles = 20000;
   float target_px = 0;
 
-  bool splatting = true;        ///< Detail textures on the ground.
+  bool splatting = true;  ///< Detail textures on the ground.
 
   // [[terrain.material]]
   std::vector<SceneMaterial> materials;  ///< Empty: default_ground_materials().

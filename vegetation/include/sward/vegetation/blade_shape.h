@@ -32,7 +32,7 @@ struct BladeShapes {
 };
 /// k' at N = 16 of a stiffness in [0, 1], increasing: 0 hangs to the ground, 1 is just below the critical value.
 double blade_k_prime(double stiffness);
-/// Some 50 ms. Any thread.
+/// Some 50 ms, once a process. Any thread.
 Expected<BladeShapes> make_blade_shapes();
 
 /// Equilibrium of the same chain in a wind that blows level in the bending plane, towards positive inclinations. Drag

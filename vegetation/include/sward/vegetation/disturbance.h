@@ -62,9 +62,9 @@ struct DisturbanceTiles;
 ///
 /// Press and water halve with every half-life since the last touch, worked out where they are read: nothing runs over
 /// the tiles, and results depend neither on step nor on frame rate (times are kept in 1/256 s). What is below 0.02 is
-/// not shown and is let go. Cuts, burns and paint stay until regrow(). After E. Lee, "Realistic Real-Time Grass Rendering"
-/// (2010; the player acts on the grass around it) and 3DWorld, "Infinite Fields of Grass" (2015: cut, crushed, burnt, wet, sprayed
-/// grass), which update vertices instead.
+/// not shown and is let go. Cuts, burns and paint stay until regrow(). After E. Lee, "Realistic Real-Time Grass
+/// Rendering" (2010; the player acts on the grass around it) and 3DWorld, "Infinite Fields of Grass" (2015: cut,
+/// crushed, burnt, wet, sprayed grass), which update vertices instead.
 ///
 /// Memory: a tile that is only pressed takes 1.7 KB for 4 m2 of its finest level, one that is only cut or burnt 0.7 KB.
 /// At the limit the finest pressed tiles go first, oldest first, then coarser ones; their means remain one level up.
@@ -107,7 +107,8 @@ class Disturbance {
   Expected<void> burn_disc(glm::dvec2 centre, double radius_m, float amount);
   Expected<void> wet_disc(glm::dvec2 centre, double radius_m, float amount);
   Expected<void> paint_disc(glm::dvec2 centre, double radius_m, glm::vec3 srgb, float amount);
-  /// A blast: the inner third is burnt, everything is laid outwards, less towards the rim.
+  /// A blast: the inner half of the radius is burnt, everything is laid outwards, less towards the rim. Where
+  /// memory ends between the two, it fails with the first of them done.
   Expected<void> explode(glm::dvec2 centre, double radius_m);
   /// A rotor that hovers: laid outwards, softly to the rim; `strength` 0..1.
   Expected<void> rotor_wash(glm::dvec2 centre, double radius_m, float strength);

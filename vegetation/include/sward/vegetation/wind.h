@@ -37,11 +37,11 @@ struct WindSource {
   glm::dvec2 velocity_m_s{0};  ///< It may travel, at most 120 m/s.
   double start_s = 0;          ///< On the wind's clock, Wind::time(). May lie in the past or the future.
   double duration_s = 4;       ///< (0, 1e6]
-  double rise_s = 2;           ///< To full strength, and from it: (0, duration / 2].
+  double rise_s = 2;           ///< To full strength, and from it: [0.001, duration / 2].
   double repeat_s = 0;         ///< It starts again after so long, [duration, 1e6]; 0: once.
   float outward_m_s = 12;      ///< At its strongest, [-120, 120]; negative: towards it.
   float around_m_s = 0;        ///< Counter-clockwise around it, [-120, 120].
-  float radius_m = 3;          ///< Where it is strongest, (0, 10000]. 0 in the middle.
+  float radius_m = 3;          ///< Where it is strongest, [0.01, 10000]. 0 in the middle.
   float falloff = 0;           ///< [0, 4]: speed falls with distance^-falloff outside of the radius.
   float reach_m = 400;         ///< Where it ends, (radius, 100000]; at half of it 56 % are left.
   float travel_m_s = 15;       ///< How fast its front goes outwards, [0.1, 1000].
@@ -61,7 +61,7 @@ struct WindMover {
   Kind kind = Kind::body;
   glm::dvec2 position{0};    ///< World, metres.
   float above_ground_m = 0;  ///< [0, 10000]: at twice the radius half of its wind reaches the ground.
-  float radius_m = 0.6f;     ///< (0, 50]. Bodies under 1.6 m only stir the air of the fine grid.
+  float radius_m = 0.6f;     ///< [0.01, 50]. Bodies under 1.6 m only stir the air of the fine grid.
   float strength = 1;        ///< Of a body: about the share of its speed that air ahead takes up, [0, 4]. Of a rotor:
                              ///< m/s outwards where it is strongest, [0, 120].
 };
