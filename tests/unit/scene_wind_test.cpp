@@ -100,7 +100,7 @@ TEST(SceneWind, WhatIsWrongIsSaidWithItsLine) {
   expect_error("[[wind.mover]]\npath = [[1, 1, 2, 0], [1, 3, 2, 0]]\n", 4, "rising times");
   expect_error("[[wind.mover]]\npath = [[0, 1, 2, 0], [1, 3, 2, 0]]\nwash_m_s = 3\n", 5, "on a body");
   expect_error("[[wind.mover]]\nkind = \"rotor\"\npath = [[0, 1, 2, 0]]\nshare = 1\n", 6, "on a rotor");
-  expect_error("[[wind.mover]]\npath = [[0, 1, 2, 0], [1, 3, 2, 0]]\nradius_m = 51\n", 5, "(0, 50]");
+  expect_error("[[wind.mover]]\npath = [[0, 1, 2, 0], [1, 3, 2, 0]]\nradius_m = 51\n", 5, "[0.01, 50]");
 }
 
 std::shared_ptr<const GrayMap> grey(std::vector<uint8_t> values) {
