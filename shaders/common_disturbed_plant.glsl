@@ -25,8 +25,9 @@ SWARD_FN float share_left(PlantTraits t, Disturbed d, float yielding) {
 
 // A pressed plant turns to the press the short way, leans and stretches, its length kept: every kind obeys by its
 // traits. Continuous in the press, so that rising plants do not jump.
-SWARD_FN PlantTraits disturb_traits(PlantTraits t, Disturbed d, float yielding) {
-  t.height = t.height * share_left(t, d, yielding);
+// `left`: share_left().
+SWARD_FN PlantTraits disturb_traits(PlantTraits t, Disturbed d, float yielding, float left) {
+  t.height = t.height * left;
   float p = min(sqrt(d.press.x * d.press.x + d.press.y * d.press.y), 1.0f) * yielding;
   if (p <= 0.0f) return t;
   // Neighbours lie a little apart.

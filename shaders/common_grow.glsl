@@ -95,7 +95,7 @@ Seedling disturb_seed(Seedling s) {
   float yielding = yields(sward_layer.species[sward_species]);
   s.disturbed = disturbed_here(s.root);
   s.left = share_left(s.traits, s.disturbed, yielding);
-  s.traits = disturb_traits(s.traits, s.disturbed, yielding);
+  s.traits = disturb_traits(s.traits, s.disturbed, yielding, s.left);
 #endif
   return s;
 }

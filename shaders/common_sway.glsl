@@ -4,7 +4,7 @@
 // How plants answer the wind, without a state. Read by GLSL and C++. Winds are m/s east and north (on meshes: in the
 // surface's frame), times seconds.
 //
-// Lee, "Infinite grass" (2010), "Wind Force": upright blades sway more, in a zone of their own, each out of phase.
+// Lee, "Realistic Real-Time Grass Rendering" (2010), "Wind Force": upright blades sway more, in a zone of their own, each out of phase.
 // Departures: the zone is a share of the wind, not of the angle, and ends where the static curve is that of
 // k_gust_factor times the wind, so that no gust bends a plant farther than wind could; cycles have no common rate.
 

@@ -8,6 +8,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "host/uniforms.h"
+
 namespace sward::host {
 
 namespace {
@@ -67,10 +69,9 @@ Expected<BallRenderer> BallRenderer::create(const gl::ShaderLibrary& shaders, co
 
 void BallRenderer::draw(const gl::Frame& frame, const View& view, std::span<const RollingBall> balls) {
   if (balls.empty()) return;
-  const GLuint uniforms = frame.buffer(), none = 0;
   glUseProgram(program_.id());
   glBindVertexArray(vertex_array_.id());
-  glBindBuffersBase(GL_UNIFORM_BUFFER, bindings_.frame, 1, &uniforms);
+  bind_uniforms(bindings_.frame, frame.buffer());
   for (const RollingBall& ball : balls) {
     const glm::vec4 place(glm::vec3(ball.centre - view.eye), float(ball.radius_m));
     const glm::mat3 turn(ball.turn);
@@ -78,7 +79,7 @@ void BallRenderer::draw(const gl::Frame& frame, const View& view, std::span<cons
     glProgramUniformMatrix3fv(program_.id(), 1, 1, GL_FALSE, glm::value_ptr(turn));
     glDrawArrays(GL_TRIANGLES, 0, k_vertices);
   }
-  glBindBuffersBase(GL_UNIFORM_BUFFER, bindings_.frame, 1, &none);
+  bind_uniforms(bindings_.frame, 0);
   glBindVertexArray(0);
   glUseProgram(0);
 }

@@ -114,25 +114,10 @@ Expected<void> set_wind_of(Programs& programs, const WindTextures* wind) {
   return {};
 }
 
-// Dead air, for scenes without [wind].
-SceneWind dead_air() {
-  SceneWind wind;
-  wind.weather.ambient_m_s = 0;
-  return wind;
-}
-
-}  // namespace
-
-bool gpu_can_time() {
-  return !gl::software_renderer();
-}
-
-namespace {
-
 // The wind, where the scene has one or the host has asked for it.
 struct Air {
   std::optional<SceneWindReplay> wind;
-  std::optional<WindTextures> textures;  // where there is a wind
+  std::optional<WindTextures> textures;  // from when on the layers move in it
   std::optional<WindOverlay> arrows;
   bool arrows_on = false;
   double time_s = 0;  // of the last frame
@@ -149,7 +134,18 @@ struct Air {
   }
 };
 
+// Dead air, for scenes without [wind].
+SceneWind dead_air() {
+  SceneWind wind;
+  wind.weather.ambient_m_s = 0;
+  return wind;
+}
+
 }  // namespace
+
+bool gpu_can_time() {
+  return !gl::software_renderer();
+}
 
 struct SceneRenderer::Impl {
   const SceneTerrain& terrain;
@@ -167,7 +163,6 @@ struct SceneRenderer::Impl {
   Streaming streaming = Streaming::live;
   float sun_azimuth = 0;  // of the last frame
   Air air{};
-  const WindTextures* wind = nullptr;  // what the layers move in
   std::vector<RollingBall> balls = {};
   std::optional<BallRenderer> ball_renderer = {};  // from the first ball on
   std::optional<DisturbanceReplay> replay = {};
@@ -188,15 +183,16 @@ struct SceneRenderer::Impl {
 
 // Layers move from the moment on that there is a wind.
 Expected<void> SceneRenderer::Impl::take_wind() {
-  if (!air.wind || wind != nullptr) return {};
-  if (!air.textures) {
-    auto made = WindTextures::create();
-    if (!made) return tl::unexpected(made.error());
-    air.textures = std::move(*made);
-  }
-  if (auto set = set_wind_of(programs, &*air.textures); !set) return set;
-  wind = &*air.textures;
-  return {};
+  if (!air.wind || air.textures) return {};
+  auto made = WindTextures::create();
+  if (!made) return tl::unexpected(made.error());
+  air.textures = std::move(*made);
+  auto set = set_wind_of(programs, &*air.textures);
+  if (set) return {};
+  // Those that have it already move with nothing again.
+  (void)set_wind_of(programs, nullptr);
+  air.textures.reset();
+  return set;
 }
 
 Expected<void> SceneRenderer::Impl::blow(const View& view, double time_s) {
@@ -489,7 +485,7 @@ Expected<void> SceneRenderer::set_layer(size_t index, const Layer& layer) {
   SWARD_ASSERT(index < impl_->layers.size(), "set_layer: no layer has this index");
   auto vegetation = build_vegetation(layer, impl_->source(), impl_->shaders, impl_->bindings);
   if (!vegetation) return tl::unexpected(vegetation.error());
-  if (auto set = vegetation->set_wind(impl_->wind); !set) return set;
+  if (auto set = vegetation->set_wind(impl_->air.textures ? &*impl_->air.textures : nullptr); !set) return set;
   if (impl_->clipmap) {
     const SceneTerrain& terrain = impl_->terrain;
     auto seeder = ClipmapSeeder::create(layer, terrain.surface(), terrain.colors(), impl_->shaders, impl_->bindings);

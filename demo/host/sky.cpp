@@ -3,16 +3,9 @@
 
 #include "host/sky.h"
 
+#include "host/uniforms.h"
+
 namespace sward::host {
-
-namespace {
-
-/// Binds a uniform buffer to its index alone: glBindBufferBase would change the general binding as well.
-void bind_uniforms(GLuint index, GLuint buffer) {
-  glBindBuffersBase(GL_UNIFORM_BUFFER, index, 1, &buffer);
-}
-
-}  // namespace
 
 Expected<Sky> Sky::create(const gl::ShaderLibrary& shaders, const gl::Bindings& bindings) {
   gl::ProgramDesc desc;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "host/uniforms.h"
+
 namespace sward::host {
 
 namespace {
@@ -16,10 +18,6 @@ constexpr int k_rings = 7;           // each twice as wide: the outermost reache
 constexpr double k_above_m = 0.35;   // the ground
 constexpr double k_length = 0.1;     // of an arrow for each m/s, in spacings
 constexpr size_t k_most_vertices = size_t(k_rings) * k_side * k_side * 6;
-
-void bind_uniforms(GLuint index, GLuint buffer) {
-  glBindBuffersBase(GL_UNIFORM_BUFFER, index, 1, &buffer);
-}
 
 }  // namespace
 

@@ -61,16 +61,9 @@ Key<SceneWalker> gait_key() {
   return choice<SceneWalker, bool>("gait", &SceneWalker::wheels, {{"feet", false}, {"wheels", true}});
 }
 
-Expected<void> refuse_keys(const toml::table& table, std::initializer_list<const char*> keys, const std::string& where,
-                           const Context& context) {
-  for (const char* key : keys)
-    if (table.contains(key)) return context.fail_at(*table.get(key), std::string(key) + " has no effect on " + where);
-  return {};
-}
-
 Expected<void> check_walker(const toml::table& table, const SceneWalker& walker, const Context& context) {
   if (walker.path.empty()) return context.fail_at(table, "a walker has no path, expected path = [[time, x, y], ...]");
-  return walker.wheels ? refuse_keys(table, {"step_m"}, "wheels, expected only with gait = \"feet\"", context)
+  return walker.wheels ? refuse(table, {"step_m"}, "on wheels, expected only with gait = \"feet\"", context)
                        : Expected<void>();
 }
 
@@ -83,14 +76,14 @@ Expected<void> check_event(const toml::table& table, const SceneEvent& event, co
   }
   const Kind kind = event.kind;
   if (kind == Kind::explosion || kind == Kind::rotor)
-    if (auto fits = refuse_keys(table, {"to_m"}, "what is round, expected only on strips", context); !fits) return fits;
+    if (auto fits = refuse(table, {"to_m"}, "on what is round, expected only on strips", context); !fits) return fits;
   if (kind == Kind::explosion || kind == Kind::cut)
-    if (auto fits = refuse_keys(table, {"amount"}, "an explosion or a cut", context); !fits) return fits;
+    if (auto fits = refuse(table, {"amount"}, "on an explosion or a cut", context); !fits) return fits;
   if (kind != Kind::cut)
-    if (auto fits = refuse_keys(table, {"height_m"}, "this kind, expected only with kind = \"cut\"", context); !fits)
+    if (auto fits = refuse(table, {"height_m"}, "on this kind, expected only with kind = \"cut\"", context); !fits)
       return fits;
   return kind == Kind::paint ? Expected<void>()
-                             : refuse_keys(table, {"color"}, "this kind, expected only with kind = \"paint\"", context);
+                             : refuse(table, {"color"}, "on this kind, expected only with kind = \"paint\"", context);
 }
 
 }  // namespace

@@ -15,17 +15,6 @@ namespace {
 
 constexpr double k_most_uint32 = std::numeric_limits<uint32_t>::max();
 
-/// Fails at the first of these keys that the table has: it would have no effect.
-Expected<void> refuse(const toml::table& table, std::initializer_list<std::string_view> keys,
-                      const std::string& because, const Context& context) {
-  for (const auto& [name, node] : entries_in_order(table)) {
-    if (std::find(keys.begin(), keys.end(), name->str()) != keys.end()) {
-      return context.fail_at(name->source(), std::string(name->str()) + " has no effect " + because);
-    }
-  }
-  return {};
-}
-
 /// Fails at the first table of a list whose name an earlier one has.
 Expected<void> refuse_same_names(const toml::table& table, std::string_view list, const Context& context) {
   std::set<std::string> seen;
@@ -699,7 +688,8 @@ const Schema<Layer>& layer_schema() {
   using L = Layer;
   static const Schema<L> schema{
       "[[layer]]",
-      {text("name", &L::name, "a word"), number("triangle_area_m2", &L::triangle_area_m2, above(0), "square metres"),
+      {text("name", &L::name, "a word"),
+       number("triangle_area_m2", &L::triangle_area_m2, above(0), "square metres"),
        number("horizon_m", &L::horizon_m, above(0), "metres"),
        whole_number("cluster_size", &L::cluster_size, within(1, k_max_cluster_size)),
        choice<L, DensityLaw>("law", &L::law,
@@ -708,9 +698,12 @@ const Schema<Layer>& layer_schema() {
                               {"world_area", DensityLaw::world_area}}),
        number("density", &L::density, above(0), "plants a square metre or a unit of screen area"),
        number("full_distance_m", &L::full_distance_m, above(0), "metres"),
-       number("falloff", &L::falloff, above_to(0, 16)), whole_number("ceiling", &L::ceiling, within(1, 1048576)),
-       flag("plain", &L::plain), flag("on_mesh", &L::on_mesh),
-       number("full_segments_m", &L::full_segments_m, above(0), "metres"), flag("shadows", &L::shadows),
+       number("falloff", &L::falloff, above_to(0, 16)),
+       whole_number("ceiling", &L::ceiling, within(1, 1048576)),
+       flag("plain", &L::plain),
+       flag("on_mesh", &L::on_mesh),
+       number("full_segments_m", &L::full_segments_m, above(0), "metres"),
+       flag("shadows", &L::shadows),
        number("shadow_distance_m", &L::shadow_distance_m, at_least(0), "metres"),
        number("water_level_m", &L::water_level_m, any_number(), "metres"),
        text("mask", &L::mask_file, "the path of an image"),

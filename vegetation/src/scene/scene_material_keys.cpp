@@ -81,23 +81,13 @@ Key<SceneMaterial> broad_key() {
   return of_material(choice<GroundMaterial, std::string>("broad_detail", &GroundMaterial::broad_detail, names));
 }
 
-/// Fails at a key that would have no effect beside another.
-Expected<void> refuse_beside(const toml::table& table, std::initializer_list<const char*> keys,
-                             const std::string& because, const Context& context) {
-  for (const char* key : keys) {
-    const toml::node* node = table.get(key);
-    if (node != nullptr) return context.fail_at(*node, std::string(key) + " has no effect " + because);
-  }
-  return {};
-}
-
 Expected<void> check_material(const toml::table& table, const SceneMaterial& material, const Context& context) {
   if (!material.species.empty()) {
-    return refuse_beside(table, {"color", "hsv", "weights"},
-                         "beside species, whose colour and weights the material has", context);
+    return refuse(table, {"color", "hsv", "weights"}, "beside species, whose colour and weights the material has",
+                  context);
   }
   if (!material.material.reference_hsv) {
-    return refuse_beside(table, {"weights"}, "without a colour, expected color, hsv or species", context);
+    return refuse(table, {"weights"}, "without a colour, expected color, hsv or species", context);
   }
   return {};
 }

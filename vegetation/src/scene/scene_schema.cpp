@@ -74,6 +74,16 @@ std::vector<std::pair<const toml::key*, const toml::node*>> entries_in_order(con
   return entries;
 }
 
+Expected<void> refuse(const toml::table& table, std::initializer_list<std::string_view> keys,
+                      const std::string& because, const Context& context) {
+  for (const auto& [name, node] : entries_in_order(table)) {
+    if (std::find(keys.begin(), keys.end(), name->str()) != keys.end()) {
+      return context.fail_at(name->source(), std::string(name->str()) + " has no effect " + because);
+    }
+  }
+  return {};
+}
+
 std::string quoted(const toml::node& node) {
   if (const auto* text = node.as_string()) return "\"" + shorten(text->get()) + "\"";
   if (const auto* number = node.as_integer()) return std::to_string(number->get());

@@ -4,6 +4,7 @@
 
 #include <sward/terrain/error.h>
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -44,6 +45,9 @@ struct Schema {
 
 /// A table's entries in the order of the file, so that the first fault in it is the one reported.
 std::vector<std::pair<const toml::key*, const toml::node*>> entries_in_order(const toml::table& table);
+/// Fails at the first of these keys that the table has: "KEY has no effect BECAUSE".
+Expected<void> refuse(const toml::table& table, std::initializer_list<std::string_view> keys,
+                      const std::string& because, const Context& context);
 /// The value as messages quote it, shortened.
 std::string quoted(const toml::node& node);
 /// "expected \"horizon_m\"" when a known name is near, else all names.

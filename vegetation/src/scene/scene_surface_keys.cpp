@@ -29,12 +29,7 @@ Expected<void> check_surface(const toml::table& table, const SceneSurface& surfa
                            "a surface is one of shape and mesh, expected shape = \"box_hedge\" or \"topiary\", "
                            "or mesh = \"FILE\"");
   }
-  if (surface.shape.empty()) {
-    for (const char* key : {"size_m", "seed"}) {
-      if (table.contains(key))
-        return context.fail_at(*table.get(key), std::string(key) + " has no effect on a mesh file, expected scale");
-    }
-  }
+  if (surface.shape.empty()) return refuse(table, {"size_m", "seed"}, "on a mesh file, expected scale", context);
   return {};
 }
 

@@ -35,15 +35,6 @@ Key<T> pair(std::string name, glm::dvec2 T::*member, Interval range, std::string
           {}};
 }
 
-/// Fails at the first of these keys that the table has.
-Expected<void> refuse(const toml::table& table, std::initializer_list<const char*> keys, const std::string& because,
-                      const Context& context) {
-  for (const char* key : keys)
-    if (const toml::node* node = table.get(key))
-      return context.fail_at(*node, std::string(key) + " has no effect " + because);
-  return {};
-}
-
 // ---- [[wind.source]]
 
 WindSource first_source(const toml::table& table) {

@@ -172,8 +172,10 @@ class Grower {
 
   /// What has touched the place makes of the plant.
   PlantTraits disturbed(const PlantTraits& traits, const SpeciesParams& species, glm::dvec2 place) const {
-    const sward::Disturbed d = ground_.disturbance->at(place, ground_.eye.value_or(place));
-    return disturb_traits(traits, {d.press, d.cut, d.burn, d.wet, d.paint}, yields(species));
+    const sward::Disturbed here = ground_.disturbance->at(place, ground_.eye.value_or(place));
+    const shared::Disturbed d{here.press, here.cut, here.burn, here.wet, here.paint};
+    const float yielding = yields(species);
+    return disturb_traits(traits, d, yielding, share_left(traits, d, yielding));
   }
 
   void grow_seed(const Cluster& cluster, const Choice& choice, bool turning, uint32_t rank) {
