@@ -8,8 +8,8 @@ function(sward_settings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
     -Wnon-virtual-dtor -ffp-contract=off)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    # g++ 12 sees overlapping copies in string concatenation that are not there (its bug 105651).
-    target_compile_options(${target} PRIVATE -Wno-restrict)
+    # g++ 12 sees overlaps and overflows in strings that are not there (its bug 105651 and others).
+    target_compile_options(${target} PRIVATE -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow)
   endif()
   if(SWARD_WERROR)
     target_compile_options(${target} PRIVATE -Werror)

@@ -45,11 +45,11 @@ glm::dvec2 looked_at(const WalkCamera& camera, const Surface& ground) {
   return glm::dvec2(camera.position) + 8.0 * glm::dvec2(std::cos(camera.yaw), std::sin(camera.yaw));
 }
 
-Expected<void> Play::walk(const WalkCamera& camera, host::SceneRenderer& renderer) {
+Expected<void> Play::walk(const WalkCamera& camera, Playground& place) {
   const glm::dvec2 here(camera.position);
   if (!camera.walking) {
     feet_.reset();
-    if (walker_) renderer.wind().remove_mover(*walker_);
+    if (walker_) place.wind().remove_mover(*walker_);
     walker_.reset();
     return {};
   }
@@ -59,36 +59,35 @@ Expected<void> Play::walk(const WalkCamera& camera, host::SceneRenderer& rendere
   if (!walker_) {
     WindMover body;
     body.position = here;
-    note(done, keep(walker_, renderer.wind().add_mover(body)));
+    note(done, keep(walker_, place.wind().add_mover(body)));
   } else {
-    note(done, renderer.wind().move(*walker_, here, 0));
+    note(done, place.wind().move(*walker_, here, 0));
   }
   const double step = glm::distance(before, here);
   if (step > 0 && step < k_longest_step_m)
-    note(done, renderer.disturbance().press_capsule(before, here, k_foot_m, k_foot_depth));
+    note(done, place.disturbance().press_capsule(before, here, k_foot_m, k_foot_depth));
   return done;
 }
 
-Expected<void> Play::roll(double seconds, const Surface& ground, host::SceneRenderer& renderer) {
+Expected<void> Play::roll(double seconds, Playground& place) {
   Expected<void> done;
   for (host::RollingBall& ball : balls_) {
     const glm::dvec2 before(ball.centre);
-    ball.roll(seconds, ground);
+    ball.roll(seconds, place.ground());
     if (ball.rests()) continue;
-    note(done, renderer.disturbance().press_capsule(before, glm::dvec2(ball.centre), 0.8 * ball.radius_m, 1.0f));
+    note(done, place.disturbance().press_capsule(before, glm::dvec2(ball.centre), 0.8 * ball.radius_m, 1.0f));
   }
   return done;
 }
 
-Expected<void> Play::hover(bool toggled, const WalkCamera& camera, const Surface& ground,
-                           host::SceneRenderer& renderer) {
+Expected<void> Play::hover(bool toggled, const WalkCamera& camera, Playground& place) {
   if (toggled && rotor_) {
-    renderer.wind().remove_mover(*rotor_);
+    place.wind().remove_mover(*rotor_);
     rotor_.reset();
     return {};
   }
   if (!toggled && !rotor_) return {};
-  const glm::dvec2 below = looked_at(camera, ground);
+  const glm::dvec2 below = looked_at(camera, place.ground());
   if (toggled) {
     WindMover rotor;
     rotor.kind = WindMover::Kind::rotor;
@@ -96,32 +95,31 @@ Expected<void> Play::hover(bool toggled, const WalkCamera& camera, const Surface
     rotor.above_ground_m = float(k_rotor_above_m);
     rotor.radius_m = float(k_rotor_m);
     rotor.strength = k_rotor_m_s;
-    return keep(rotor_, renderer.wind().add_mover(rotor));
+    return keep(rotor_, place.wind().add_mover(rotor));
   }
-  Expected<void> done = renderer.wind().move(*rotor_, below, float(k_rotor_above_m));
-  note(done, renderer.disturbance().rotor_wash(below, 1.5 * k_rotor_m, 0.35f));
+  Expected<void> done = place.wind().move(*rotor_, below, float(k_rotor_above_m));
+  note(done, place.disturbance().rotor_wash(below, 1.5 * k_rotor_m, 0.35f));
   return done;
 }
 
-Expected<void> Play::act(const PlayInput& input, const WalkCamera& camera, const Surface& ground,
-                         host::SceneRenderer& renderer) {
+Expected<void> Play::act(const PlayInput& input, const WalkCamera& camera, Playground& place) {
   if (!input.any()) return {};
-  const glm::dvec2 at = looked_at(camera, ground), here(camera.position);
-  Disturbance& disturbance = renderer.disturbance();
+  const glm::dvec2 at = looked_at(camera, place.ground()), here(camera.position);
+  Disturbance& disturbance = place.disturbance();
   Expected<void> done;
   if (input.cut) note(done, disturbance.cut_capsule(here, at, 0.6, 0.06f));
   if (input.burn) note(done, disturbance.burn_disc(at, 1.5, 1.0f));
   if (input.explode) note(done, disturbance.explode(at, 5));
   if (input.regrow) note(done, disturbance.regrow(at, 30, 10));
-  const double now = renderer.wind().time();
+  const double now = place.wind().time();
   if (input.gust) {
     WindSource gust;
     gust.position = here;
     gust.start_s = now;
-    if (auto added = renderer.wind().add_source(gust); !added) note(done, tl::unexpected(added.error()));
+    if (auto added = place.wind().add_source(gust); !added) note(done, tl::unexpected(added.error()));
   }
   if (input.whirlwind)
-    if (auto added = renderer.wind().add_source(whirlwind(at, 4, 14, now)); !added)
+    if (auto added = place.wind().add_source(whirlwind(at, 4, 14, now)); !added)
       note(done, tl::unexpected(added.error()));
   if (input.ball) {
     if (balls_.size() == k_most_balls) balls_.erase(balls_.begin());
@@ -134,12 +132,11 @@ Expected<void> Play::act(const PlayInput& input, const WalkCamera& camera, const
   return done;
 }
 
-Expected<void> Play::follow(const PlayInput& input, const WalkCamera& camera, double seconds, const Surface& ground,
-                            host::SceneRenderer& renderer) {
-  Expected<void> done = walk(camera, renderer);
-  note(done, act(input, camera, ground, renderer));
-  note(done, hover(input.rotor, camera, ground, renderer));
-  note(done, roll(seconds, ground, renderer));
+Expected<void> Play::follow(const PlayInput& input, const WalkCamera& camera, double seconds, Playground& place) {
+  Expected<void> done = walk(camera, place);
+  note(done, act(input, camera, place));
+  note(done, hover(input.rotor, camera, place));
+  note(done, roll(seconds, place));
   return done;
 }
 

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/vegetation/disturbance.h>
+#include <sward/vegetation/wind.h>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "host/rolling_ball.h"
-#include "host/scene_renderer.h"
 #include "sward/viewer/camera.h"
 
 namespace sward::tool {
@@ -19,22 +19,30 @@ struct PlayInput {
   bool any() const { return cut || burn || explode || regrow || gust || whirlwind || rotor || ball; }
 };
 
+/// What is played with. Wind and disturbance are asked for when something is done to them, not before: a scene without
+/// wind need not have one until then.
+class Playground {
+ public:
+  virtual ~Playground() = default;
+  virtual const Surface& ground() const = 0;
+  virtual Wind& wind() = 0;
+  virtual Disturbance& disturbance() = 0;
+};
+
 /// What a person does to the wind and to the ground: walking tramples and stirs the air, keys act on the place looked
-/// at. Belongs to one SceneRenderer: begin anew when that is replaced.
+/// at. Belongs to one playground: begin anew when that is replaced.
 class Play {
  public:
   /// Once a frame, before it is drawn. Fails where the wind or the ground refuses, with its reason; goes on all the
   /// same.
-  Expected<void> follow(const PlayInput& input, const WalkCamera& camera, double seconds, const Surface& ground,
-                        host::SceneRenderer& renderer);
+  Expected<void> follow(const PlayInput& input, const WalkCamera& camera, double seconds, Playground& place);
   const std::vector<host::RollingBall>& balls() const { return balls_; }
 
  private:
-  Expected<void> walk(const WalkCamera& camera, host::SceneRenderer& renderer);
-  Expected<void> roll(double seconds, const Surface& ground, host::SceneRenderer& renderer);
-  Expected<void> hover(bool toggled, const WalkCamera& camera, const Surface& ground, host::SceneRenderer& renderer);
-  Expected<void> act(const PlayInput& input, const WalkCamera& camera, const Surface& ground,
-                     host::SceneRenderer& renderer);
+  Expected<void> walk(const WalkCamera& camera, Playground& place);
+  Expected<void> roll(double seconds, Playground& place);
+  Expected<void> hover(bool toggled, const WalkCamera& camera, Playground& place);
+  Expected<void> act(const PlayInput& input, const WalkCamera& camera, Playground& place);
 
   std::optional<glm::dvec2> feet_;  // where they stood while walking
   std::optional<WindMoverId> walker_, rotor_;

@@ -120,6 +120,17 @@ struct Shown {
   Clock::time_point since = Clock::now();  // the scene's time 0
 };
 
+class ScenePlayground final : public Playground {
+ public:
+  explicit ScenePlayground(Shown& shown) : shown_(&shown) {}
+  const Surface& ground() const override { return shown_->terrain->surface(); }
+  Wind& wind() override { return shown_->renderer->wind(); }
+  Disturbance& disturbance() override { return shown_->renderer->disturbance(); }
+
+ private:
+  Shown* shown_;
+};
+
 PlayInput play_input(Window& window) {
   const bool typing = ImGui::GetIO().WantCaptureKeyboard;
   const auto pressed = [&](int key) { return window.pressed_once(key) && !typing; };
@@ -218,8 +229,8 @@ Expected<void> run_window(Window& window, const ViewOptions& options, Reloader& 
       shown.panel.wind_arrows = !shown.panel.wind_arrows;
     draw_panel(shown.panel, camera, stats, seconds * 1000);
     apply_panel(shown.panel, *shown.renderer);
-    auto played = shown.play.follow(play_input(window), camera, std::min(seconds, 0.1), shown.terrain->surface(),
-                                    *shown.renderer);
+    ScenePlayground place(shown);
+    auto played = shown.play.follow(play_input(window), camera, std::min(seconds, 0.1), place);
     if (!played) shown.panel.message = played.error().message;
     if (auto set = shown.renderer->set_balls(shown.play.balls()); !set) shown.panel.message = set.error().message;
 
