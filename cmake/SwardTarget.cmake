@@ -27,7 +27,9 @@ function(sward_library name)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/src/${name}/*.cpp")
   add_library(sward_${name} ${sources})
   add_library(sward::${name} ALIAS sward_${name})
-  set_target_properties(sward_${name} PROPERTIES EXPORT_NAME ${name})
+  # Only what SWARD_API marks is seen from outside.
+  set_target_properties(sward_${name} PROPERTIES EXPORT_NAME ${name} CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON)
   target_include_directories(sward_${name}
     PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/error.h>
 #include <cstddef>
 #include <memory>
@@ -11,7 +12,7 @@
 namespace sward {
 
 /// An ordinary file open for reading.
-class InputFile {
+class SWARD_API InputFile {
  public:
   /// Fails, naming `what` and the path, when the file is missing, closed to us, a folder, a pipe or a device.
   static Expected<InputFile> open(const std::string& path, const std::string& what);
@@ -38,7 +39,7 @@ class InputFile {
 
 /// Writes the pieces one after the other to a temporary beside `path`, syncs it and renames it. Removes the temporary
 /// and fails, naming `what` and the path, when any of that fails.
-Expected<void> write_atomically(const std::string& path, const std::string& what,
-                                std::span<const std::span<const std::byte>> pieces);
+SWARD_API Expected<void> write_atomically(const std::string& path, const std::string& what,
+                                          std::span<const std::span<const std::byte>> pieces);
 
 }  // namespace sward

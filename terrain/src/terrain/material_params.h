@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/ground_material.h>
 
 #include "terrain/material_glsl.h"
@@ -17,6 +18,7 @@ struct MaterialLayers {
 };
 
 /// A material as shaders see it.
-material_glsl::MaterialParams make_material_params(const GroundMaterial& material, const MaterialLayers& layers);
+SWARD_API material_glsl::MaterialParams make_material_params(const GroundMaterial& material,
+                                                             const MaterialLayers& layers);
 
 }  // namespace sward

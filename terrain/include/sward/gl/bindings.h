@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <epoxy/gl.h>
 
 #include <string>
@@ -49,6 +50,6 @@ struct Bindings {
 
 struct Define;
 /// SWARD_BINDING_FRAME and so on, for ProgramDesc::defines.
-std::vector<Define> binding_defines(const Bindings& bindings);
+SWARD_API std::vector<Define> binding_defines(const Bindings& bindings);
 
 }  // namespace sward::gl

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/gl/bindings.h>
 #include <sward/gl/handles.h>
 #include <sward/terrain/clipmap_rings.h>
@@ -22,7 +23,7 @@ struct ClipmapUniforms {
 };
 
 /// Clipmap rings in textures, for shaders that want the drawn surface: terrain, seeding, plants. GL thread.
-class Clipmap {
+class SWARD_API Clipmap {
  public:
   /// `surface` must outlive it. Empty until the first follow(). Fails on options out of range and a GL below 4.5.
   /// Memory on the GPU: 8 bytes a point of a ring. Leaves all state as it was.
@@ -55,6 +56,6 @@ class Clipmap {
 };
 
 /// The uniforms of rings as of their last follow(), which was for `view`.
-ClipmapUniforms make_clipmap_uniforms(const ClipmapRings& rings, const View& view);
+SWARD_API ClipmapUniforms make_clipmap_uniforms(const ClipmapRings& rings, const View& view);
 
 }  // namespace sward::gl

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <sward/api.h>
 #include <sward/gl/bindings.h>
 #include <sward/gl/handles.h>
 #include <sward/terrain/view.h>
@@ -10,7 +11,7 @@
 namespace sward::gl {
 
 /// What lights the scene. Colours are linear, Rec. 709.
-struct Lighting {
+struct SWARD_API Lighting {
   float sun_azimuth = 2.4f;       ///< Radians: 0 east, counter-clockwise.
   float sun_elevation = 0.6f;     ///< Radians above the horizon; at and below 0 the sun gives no light.
   glm::vec3 sun_radiance{3.2f, 3.0f, 2.6f};   ///< On a surface facing the sun.
@@ -47,7 +48,7 @@ struct FrameUniforms {
 };
 
 /// The per-view uniform buffer that every sward program reads. GL thread.
-class Frame {
+class SWARD_API Frame {
  public:
   static Expected<Frame> create(const Bindings& bindings = {});
   /// Fills the buffer for a view. `time_s` drives what moves; `samples` of the target (1: no multisampling) chooses
@@ -63,6 +64,6 @@ class Frame {
   int samples_ = 1;
 };
 
-FrameUniforms make_frame_uniforms(const View& view, const Lighting& lighting, double time_s, int samples);
+SWARD_API FrameUniforms make_frame_uniforms(const View& view, const Lighting& lighting, double time_s, int samples);
 
 }  // namespace sward::gl

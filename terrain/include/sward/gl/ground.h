@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/gl/disturbed_ground.h>
 #include <sward/gl/handles.h>
 #include <sward/gl/slope_map.h>
@@ -14,7 +15,7 @@ namespace sward::gl {
 
 /// The ground's static textures: the base map twice (decoded and mipmapped for shading, raw for classification; one
 /// storage, two views) and the slope map. GL thread.
-class GroundTextures {
+class SWARD_API GroundTextures {
  public:
   /// Uploads copies; the arguments may go away afterwards. Fails when a map exceeds the device's texture size or the
   /// base map does not validate. Filters are anisotropic where the device has that in hardware. Leaves all state as it

@@ -4,6 +4,7 @@
 
 #include <epoxy/gl.h>
 
+#include <sward/api.h>
 #include <sward/terrain/error.h>
 #include <utility>
 
@@ -56,18 +57,18 @@ using Feedback = Handle<FeedbackTraits>;
 using Framebuffer = Handle<FramebufferTraits>;
 
 // All by direct state access; nothing stays bound.
-Buffer create_buffer();
-Texture create_texture(GLenum target);
-VertexArray create_vertex_array();
-Query create_query(GLenum target);
+SWARD_API Buffer create_buffer();
+SWARD_API Texture create_texture(GLenum target);
+SWARD_API VertexArray create_vertex_array();
+SWARD_API Query create_query(GLenum target);
 /// A query that takes its target when it is first begun: Mesa 22.3's glCreateQueries refuses pipeline statistics.
-Query name_query();
-Feedback create_feedback();
-Framebuffer create_framebuffer();
+SWARD_API Query name_query();
+SWARD_API Feedback create_feedback();
+SWARD_API Framebuffer create_framebuffer();
 
 /// The default pixel-unpack state (no unpack buffer, tight rows) while it lives, then what it found. For creation, which
 /// reads pixels from memory; it queries, so it does not belong in a frame.
-class DefaultUnpack {
+class SWARD_API DefaultUnpack {
  public:
   DefaultUnpack();
   ~DefaultUnpack();
@@ -82,10 +83,10 @@ class DefaultUnpack {
 
 /// Fails unless a context of at least GL 4.5 is current. Call it first in every creation: epoxy aborts the process at
 /// the first other GL call without a context.
-Expected<void> require_context();
+SWARD_API Expected<void> require_context();
 
 /// Whether the current context draws on the CPU (llvmpipe, softpipe, SwiftShader): such drivers filter anisotropically
 /// at fifty times the cost of a frame, cannot time themselves, and have limits of their own.
-bool software_renderer();
+SWARD_API bool software_renderer();
 
 }  // namespace sward::gl

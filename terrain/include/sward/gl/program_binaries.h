@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/gl/handles.h>
 #include <cstddef>
 #include <map>
@@ -15,7 +16,7 @@ namespace sward::gl {
 /// builds programs with a ShaderLibrary that has these; one with another context of the same driver then builds them
 /// again in a fraction of the time. Drivers without a format for programs leave it empty: then programs are compiled.
 /// Any thread, several at a time; take() and store() need a current context.
-class ProgramBinaries {
+class SWARD_API ProgramBinaries {
  public:
   /// A program of this text, linked; id 0 when there is none or the driver does not take it any more.
   Program take(const std::string& text) const;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/gl/handles.h>
 #include <memory>
 #include <span>
@@ -12,7 +13,7 @@
 namespace sward::gl {
 
 /// Every file of shaders/, embedded at build time ("grass_blade.tese.glsl").
-std::span<const EmbeddedText> embedded_shaders();
+SWARD_API std::span<const EmbeddedText> embedded_shaders();
 
 /// A stage's text with every `#include "name"` in place (each file once) and lines marked with `#line`; file numbers
 /// are indices into `files`. Includes are textual: they must not stand inside of #if. A file that includes itself,
@@ -40,7 +41,7 @@ struct ProgramDesc {
 
 /// Where shader text comes from: files of an override directory first when one is set (for reloading), then further
 /// sources that the host registered (its own plant kinds), then the embedded ones.
-class ShaderLibrary {
+class SWARD_API ShaderLibrary {
  public:
   ShaderLibrary() = default;
   explicit ShaderLibrary(std::string override_directory) : override_directory_(std::move(override_directory)) {}

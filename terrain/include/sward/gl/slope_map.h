@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/gl/handles.h>
 #include <sward/terrain/height_field.h>
 #include <sward/terrain/surface.h>
@@ -22,7 +23,7 @@ struct SlopeMapOptions {
 
 /// Slopes of the data (dz/dx, dz/dy) for shading: one array texture, one layer for a surface that fits, for larger ones
 /// windows around the eye of which each is four times as wide and as coarse as the one before. GL thread.
-class SlopeMap {
+class SWARD_API SlopeMap {
  public:
   /// All of a field, one layer. Fails beyond the device's largest texture. Leaves all state as it was.
   static Expected<SlopeMap> create(const HeightField& field);

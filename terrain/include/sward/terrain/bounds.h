@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/height_field.h>
 #include <cstdint>
 #include <memory>
@@ -15,7 +16,7 @@ namespace sward {
 /// 16-bit float (5 bit exponent, 11 bit mantissa) rounded up: it neither saturates below 500 km nor loses more than
 /// 1/2048 (2^-23 m below a quarter of a millimetre). The relief's analytic bound is in it. Diamonds below which there
 /// are only holes and padding count 0. A diamond's bound is never below that of the diamonds that depend on it.
-class Bounds {
+class SWARD_API Bounds {
  public:
   /// Bottom-up, in parallel over `threads` threads (0: all cores); the result does not depend on their number.
   /// Cost: some 20 ns a sample a core. The field must outlive the bounds.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/surface.h>
 #include <sward/terrain/view.h>
 #include <cstddef>
@@ -33,7 +34,7 @@ struct ClipmapOptions {
 /// Departures: heights come from the surface's own height function, relief included, instead of a compressed pyramid;
 /// rings' windows follow the bintree's lattice, so that the plants of a triangle are those of any other terrain; the
 /// innermost ring melts away as the eye rises above it instead of vanishing.
-class ClipmapRings {
+class SWARD_API ClipmapRings {
  public:
   static constexpr int k_most_rings = 20;
   static constexpr int k_block_cells = 16;  ///< Cells a side of what is culled as one.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/error.h>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -22,7 +23,7 @@ struct ColorBounds {
 /// The base map: the ground's colour, sRGB as stored in files, and where plants are forbidden outright (alpha 0).
 /// Row 0 is the northern edge. Texel (i, j)'s centre lies at u = (i + 0.5) / width, u = (x - min.x) / size.x, and
 /// v = (j + 0.5) / height counted from the north. Immutable after filling; safe from several threads.
-struct ColorMap {
+struct SWARD_API ColorMap {
   int width = 0;
   int height = 0;
   std::vector<glm::u8vec4> texels;  ///< width * height, sRGB + alpha (255: plants may stand).
@@ -35,6 +36,6 @@ struct ColorMap {
 };
 
 /// One pass over the texels of a map that validates. Ask again where texels were changed.
-std::shared_ptr<const ColorBounds> bound_colors(const ColorMap& map);
+SWARD_API std::shared_ptr<const ColorBounds> bound_colors(const ColorMap& map);
 
 }  // namespace sward

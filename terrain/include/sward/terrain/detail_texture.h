@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/error.h>
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace sward {
 /// A square piece of ground that tiles: what a texture of the ground near the eye adds to the base map's colour. It is
 /// a factor around 1, so that the ground keeps the base map's colour: the mean of every channel at every level is 1.
 /// Immutable after filling; safe from several threads.
-struct DetailTexture {
+struct SWARD_API DetailTexture {
   static constexpr int k_side = 512;          ///< Texels a side of level 0.
   static constexpr int k_levels = 10;         ///< Down to one texel.
   static constexpr float k_unit = 128.0f;     ///< The code that stands for the factor 1; 255 is 1.99.
@@ -40,16 +41,16 @@ struct DetailTexture {
 
 /// Names that generate_detail() knows: "soil", "grass", "gravel", "rock", "strata", "sand", "litter", "snow",
 /// "mottle" (clumps and hollows without anything that has a size of its own).
-std::span<const std::string_view> generated_details();
+SWARD_API std::span<const std::string_view> generated_details();
 
 /// Paints one of them; the same bytes on every call and machine of the same floating point. Fails on another name,
 /// listing those that there are. Any thread. Cost: 20 to 60 ms.
-Expected<DetailTexture> generate_detail(std::string_view name);
+SWARD_API Expected<DetailTexture> generate_detail(std::string_view name);
 
 /// From an image of any square size from 16 to 8192 texels a side (sRGB; alpha is ignored), resampled by areas. Colours
 /// are divided by their mean, and brightness is taken for height. Its borders should match: it is repeated. `name`
 /// begins messages. Fails where the sides differ, are out of range, or the image is black.
-Expected<DetailTexture> detail_from_image(std::string_view name, int width, int height,
-                                          std::span<const glm::u8vec4> texels);
+SWARD_API Expected<DetailTexture> detail_from_image(std::string_view name, int width, int height,
+                                                    std::span<const glm::u8vec4> texels);
 
 }  // namespace sward

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/bounds.h>
 #include <cstdint>
 #include <functional>
@@ -10,7 +11,7 @@
 namespace sward {
 
 /// Where an edit acts, world metres.
-struct EditRegion {
+struct SWARD_API EditRegion {
   enum class Shape { disc, rectangle };
   Shape shape = Shape::disc;
   glm::dvec2 centre{0.0};
@@ -64,10 +65,11 @@ struct EditResult {
 /// not depend on the field's size.
 /// Fails, changing nothing, when the region or the numbers are not valid, when the region lies outside of the field,
 /// and when heights would span more than 262144 m or not be finite. A region between samples changes none.
-Expected<EditResult> edit(HeightField& field, Bounds& bounds, const Edit& edit);
+SWARD_API Expected<EditResult> edit(HeightField& field, Bounds& bounds, const Edit& edit);
 
 /// New height in world metres of the sample at world `xy` whose height is `z`; blended in by the region's weight.
 using HeightFunction = std::function<double(glm::dvec2 xy, double z)>;
-Expected<EditResult> edit(HeightField& field, Bounds& bounds, const EditRegion& region, const HeightFunction& height);
+SWARD_API Expected<EditResult> edit(HeightField& field, Bounds& bounds, const EditRegion& region,
+                                    const HeightFunction& height);
 
 }  // namespace sward

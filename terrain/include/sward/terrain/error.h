@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -35,8 +36,8 @@ struct EmbeddedText {
 /// Called by SWARD_ASSERT on misuse of the API. The default prints to stderr and aborts. Replace it before any other
 /// call; a handler that returns lets the call go on with undefined results.
 using AssertHandler = void (*)(const char* expression, const char* message, const char* file, int line);
-void set_assert_handler(AssertHandler handler);
-void assert_failed(const char* expression, const char* message, const char* file, int line);
+SWARD_API void set_assert_handler(AssertHandler handler);
+SWARD_API void assert_failed(const char* expression, const char* message, const char* file, int line);
 
 }  // namespace sward
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/height_field.h>
 #include <sward/terrain/view.h>
 #include <cstdint>
@@ -22,7 +23,7 @@ namespace sward {
 ///        /|\                  Corners (apex, left, right) run counter-clockwise seen from above; they are v0, v1, v2
 ///       / | \                 of equations 3 and 25 of Papavasiliou (2015).
 ///   left--m--right
-struct TriangleId {
+struct SWARD_API TriangleId {
   uint64_t bits = 0;
 
   static TriangleId root(int root, glm::ivec2 square);
@@ -39,7 +40,7 @@ struct TriangleId {
 struct TriangleCorners {
   LatticePoint apex, left, right;
 };
-TriangleCorners corners_of(TriangleId id);
+SWARD_API TriangleCorners corners_of(TriangleId id);
 
 /// A triangle of a layer's level, ready for seeding: one element of FixedTriangles. x and y of its corners are static;
 /// z is the surface drawn in this frame.
@@ -68,7 +69,7 @@ struct SurfaceNode {
 };
 
 /// What a terrain keeps from frame to frame beside the triangles that it wrote, so that the next frame costs less.
-class FixedTrianglesMemory {
+class SWARD_API FixedTrianglesMemory {
  public:
   virtual ~FixedTrianglesMemory() = default;
 };
@@ -78,7 +79,7 @@ class FixedTrianglesMemory {
 /// Owned by the caller, one for each layer and view, and reused from frame to frame: columns keep their memory, and a
 /// mesh rebuilds only what changed since it wrote into the same object. Copies have the triangles, not that memory. One
 /// thread at a time.
-class FixedTriangles {
+class SWARD_API FixedTriangles {
  public:
   FixedTriangles();
   FixedTriangles(const FixedTriangles& other);
@@ -173,7 +174,7 @@ struct FixedLevelOptions {
 };
 
 /// The level whose triangles' area is nearest to `area_m2` (geometrically), within [0, k_max_level].
-int level_for_area(const Lattice& lattice, double area_m2);
-int level_for_area(const HeightField& field, double area_m2);
+SWARD_API int level_for_area(const Lattice& lattice, double area_m2);
+SWARD_API int level_for_area(const HeightField& field, double area_m2);
 
 }  // namespace sward

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/detail_texture.h>
 #include <sward/terrain/error.h>
 #include <glm/glm.hpp>
@@ -43,20 +44,20 @@ struct GroundMaterial {
 inline constexpr int k_max_materials = 16;
 
 /// Fails naming material, field and range, on more than k_max_materials, and on two that are everywhere.
-Expected<void> validate(std::span<const GroundMaterial> materials);
+SWARD_API Expected<void> validate(std::span<const GroundMaterial> materials);
 
 /// Grass, litter, soil, gravel, rock with strata on cliffs, sand and snow by colours that they have anywhere, and soil
 /// for the rest.
-std::vector<GroundMaterial> default_ground_materials();
+SWARD_API std::vector<GroundMaterial> default_ground_materials();
 
 /// What a material shows at the coarser scales, on flat ground and on cliffs: broad_detail, or what it stands for.
 /// Empty: the same as at the finest.
-std::string broad_detail_of(const GroundMaterial& material, bool cliff);
+SWARD_API std::string broad_detail_of(const GroundMaterial& material, bool cliff);
 
 /// Equation 17: the share of each material in ground of this colour (sRGB-encoded, 0..1), before heights sharpen it.
 /// Shares are those of the three best scores, each less the fourth, so that what is drawn is bounded and nothing jumps;
 /// they sum to 1, or are all 0 where nothing matches. `shares` is as long as `materials`. Fragments compute the same
 /// (shaders/common_material.glsl).
-void material_shares(std::span<const GroundMaterial> materials, glm::vec3 srgb, std::span<float> shares);
+SWARD_API void material_shares(std::span<const GroundMaterial> materials, glm::vec3 srgb, std::span<float> shares);
 
 }  // namespace sward

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/error.h>
 #include <sward/terrain/lattice.h>
 #include <cstdint>
@@ -50,7 +51,7 @@ struct HeightFieldDesc {
 ///
 /// Const calls are safe from several threads. Only edit() (edits.h) changes a field, in place; while it runs nothing
 /// else may use the field: no query, no mesh update.
-class HeightField {
+class SWARD_API HeightField {
  public:
   using Samples = std::variant<std::vector<uint16_t>, std::vector<float>>;
 

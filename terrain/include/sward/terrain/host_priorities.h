@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/error.h>
 #include <sward/terrain/lattice.h>
 #include <cstdint>
@@ -44,7 +45,7 @@ struct NamedLine {
 /// Cost of an update, beside that of the triangles themselves: for a point that moved, the triangles over it that the
 /// old and the new place do not share (35 at most, few for a small step); for a line, the triangles that its wedgies
 /// hold; nothing for what stays where it is. An edit of the surface asks all of them anew.
-class HostPriorities {
+class SWARD_API HostPriorities {
  public:
   /// Of the meshes that it is to be set for: HeightField::lattice(), World::lattice(), Surface::lattice().
   explicit HostPriorities(const Lattice& lattice) : lattice_(lattice) {}

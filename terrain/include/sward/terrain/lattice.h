@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -23,7 +24,7 @@ struct LatticeBox {
 };
 
 /// Where a surface's lattice lies in the world. x and y of a point are the same bits whenever they are asked for.
-struct Lattice {
+struct SWARD_API Lattice {
   int columns = 2, rows = 2;     ///< Samples west to east and north to south, of the whole surface.
   glm::dvec2 spacing{1.0, 1.0};  ///< Metres between samples.
   glm::dvec3 origin{0.0};        ///< World position of the data's middle.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/error.h>
 #include <sward/terrain/roam_mesh.h>
 #include <sward/terrain/view.h>
@@ -22,6 +23,6 @@ struct MeshUpdate {
 /// Each mesh comes out as from its own update(), and an update that fails leaves the others alone. The surfaces are
 /// only read. Threads are started for each call, which costs some 30 microseconds a thread beside updates of
 /// milliseconds, and leaves a host nothing to own or to end.
-void update_all(std::span<MeshUpdate> updates, int threads = 0);
+SWARD_API void update_all(std::span<MeshUpdate> updates, int threads = 0);
 
 }  // namespace sward

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/bounds.h>
 #include <glm/glm.hpp>
 #include <limits>
@@ -44,7 +45,7 @@ struct SightResult {
 /// Batches write answer i for question i; both spans have the same length (asserted). They run on up to `threads`
 /// threads, the calling one included (0: all cores), started for the call; batches under some 256 rays, or 16384
 /// heights, stay on the calling thread. Answers do not depend on the number of threads.
-class TerrainQueries {
+class SWARD_API TerrainQueries {
  public:
   /// `bounds` and its field must outlive the queries.
   explicit TerrainQueries(const Bounds& bounds) : bounds_(&bounds), field_(&bounds.field()) {}

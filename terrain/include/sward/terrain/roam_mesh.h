@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/bounds.h>
 #include <sward/terrain/fixed_triangles.h>
 #include <sward/terrain/host_priorities.h>
@@ -54,7 +55,7 @@ struct RoamVertex {
 
 /// An incrementally optimal triangle bintree (Duchaineau et al. 1997): a split queue of leaves and a merge queue of
 /// diamonds ordered by projected wedgie thickness in pixels. No cracks, ever; deterministic. One thread at a time.
-class RoamMesh {
+class SWARD_API RoamMesh {
  public:
   /// `bounds` and its field must outlive the mesh. Fails when the budget is below the root mesh, naming both numbers.
   static Expected<RoamMesh> create(const Bounds& bounds, const RoamOptions& options);

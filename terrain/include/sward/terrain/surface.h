@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/bounds.h>
 #include <sward/terrain/lattice.h>
 #include <glm/glm.hpp>
@@ -22,7 +23,7 @@ struct LatticeGrid {
 /// The same lattice point has the same height whatever is resident. Calls are const, made once for each vertex or
 /// triangle that comes into being, and must be safe from the threads of all meshes over the surface; what they answer
 /// may change only between updates, and then every mesh is told by RoamMesh::surface_changed().
-class Surface {
+class SWARD_API Surface {
  public:
   virtual ~Surface() = default;
 
@@ -62,7 +63,7 @@ class Surface {
 };
 
 /// A field with its bounds, all of it resident. `bounds` and its field must outlive it.
-class FieldSurface final : public Surface {
+class SWARD_API FieldSurface final : public Surface {
  public:
   explicit FieldSurface(const Bounds& bounds) : bounds_(&bounds), field_(&bounds.field()) {}
 

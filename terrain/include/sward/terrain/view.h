@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/error.h>
 #include <array>
 #include <glm/glm.hpp>
@@ -9,7 +10,7 @@
 namespace sward {
 
 /// One camera. World: right-handed, metres, z up, x east, y north. Clip space: OpenGL's.
-struct View {
+struct SWARD_API View {
   glm::dvec3 eye{0};               ///< World position, metres.
   glm::dmat3 eye_from_world{1};    ///< Rotation only: world axes to eye axes (x right, y up, -z ahead).
   glm::dmat4 clip_from_eye{1};     ///< Projection; reversed and infinite ones are allowed.
@@ -46,6 +47,6 @@ struct Plane {
 
 /// Left, right, bottom, top, near, far. Works for normal, reversed and infinite projections: a plane at infinity comes
 /// out as one that everything satisfies (n = 0, d = 1).
-std::array<Plane, 6> frustum_planes(const View& view);
+SWARD_API std::array<Plane, 6> frustum_planes(const View& view);
 
 }  // namespace sward

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/surface.h>
 #include <sward/terrain/view.h>
 #include <sward/terrain/world_data.h>
@@ -78,7 +79,7 @@ struct WorldFailure {
 ///
 ///   data      Surface calls and height(): any thread, at any time, without waiting.
 ///   control   follow(), poll(), settled(), stats(), failures(): one thread at a time.
-class World final : public Surface {
+class SWARD_API World final : public Surface {
  public:
   /// A world that bake_world() made. Reads the index only (8 bytes a coarse cell); fails, naming the file, when it is
   /// missing, truncated, damaged or of another version, and when the memory cap is too small.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/world_data.h>
 #include <cstdint>
 #include <string>
@@ -31,7 +32,7 @@ struct BakeStats {
 ///
 /// Fails when the folder cannot be written or holds another world's index, when `read` fails, when the disk is full:
 /// then what is finished stays, and no index is there.
-Expected<BakeStats> bake_world(const std::string& folder, const BakeDesc& desc, const ReadHeights& read,
-                               const Progress& progress = {});
+SWARD_API Expected<BakeStats> bake_world(const std::string& folder, const BakeDesc& desc, const ReadHeights& read,
+                                         const Progress& progress = {});
 
 }  // namespace sward

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/error.h>
 #include <sward/terrain/lattice.h>
 #include <cstdint>
@@ -17,7 +18,7 @@ namespace sward {
 /// (column, row), row 0 the northern edge, stands where HeightField puts it. Squares in the last column and row may
 /// reach beyond the data: that is padding, which repeats the edge and is never drawn. Samples are what they are: a
 /// world has no relief below the data.
-struct WorldDesc {
+struct SWARD_API WorldDesc {
   int columns = 0;               ///< Samples west to east of the whole world, >= 2.
   int rows = 0;                  ///< Samples north to south, >= 2.
   glm::dvec2 spacing{1.0, 1.0};  ///< Metres between samples, > 0.
@@ -75,9 +76,11 @@ using ReadHeights =
 /// Computes a square's fine data from samples: the square with a margin of one coarse cell around, so that bounds on
 /// its borders are the same from both sides. `threads` 0: all cores. Cost: some 40 ns a sample a core. Any thread, if
 /// `read` allows. Fails where `read` does, or on samples that WorldDesc does not allow.
-Expected<SquareData> build_square(const WorldDesc& desc, glm::ivec2 square, const ReadHeights& read, int threads = 1);
+SWARD_API Expected<SquareData> build_square(const WorldDesc& desc, glm::ivec2 square, const ReadHeights& read,
+                                            int threads = 1);
 
 /// Computes the resident part of a world by building each of its squares once. Cost: that of all of them.
-Expected<WorldCoarse> build_coarse(const WorldDesc& desc, const ReadHeights& read, const Progress& progress = {});
+SWARD_API Expected<WorldCoarse> build_coarse(const WorldDesc& desc, const ReadHeights& read,
+                                             const Progress& progress = {});
 
 }  // namespace sward

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/gl/clipmap.h>
 #include <sward/gl/frame.h>
 #include <sward/gl/ground.h>
@@ -11,7 +12,7 @@
 namespace sward {
 
 /// Draws clipmap rings with the shading of TerrainRenderer. GL thread.
-class ClipmapRenderer {
+class SWARD_API ClipmapRenderer {
  public:
   static Expected<ClipmapRenderer> create(const gl::ShaderLibrary& shaders, const gl::Bindings& bindings = {});
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/gl/handles.h>
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +12,7 @@
 namespace sward {
 
 /// A GPU buffer of slots of one size, of which a frame writes few. GL thread; binds nothing.
-class SlotBuffer {
+class SWARD_API SlotBuffer {
  public:
   SlotBuffer() = default;
   explicit SlotBuffer(size_t slot_bytes) : slot_bytes_(slot_bytes) {}

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/gl/frame.h>
 #include <sward/gl/ground.h>
 #include <sward/gl/shader_library.h>
@@ -11,7 +12,7 @@
 namespace sward {
 
 /// Draws a RoamMesh: base map, sun, ambient light, haze. GL thread.
-class TerrainRenderer {
+class SWARD_API TerrainRenderer {
  public:
   static Expected<TerrainRenderer> create(const gl::ShaderLibrary& shaders, const gl::Bindings& bindings = {});
 

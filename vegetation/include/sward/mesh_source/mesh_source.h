@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/vegetation/mesh_surface.h>
 #include <string>
 
@@ -11,6 +12,6 @@ namespace sward {
 /// Fails, naming the file, on files that do not exist, that OpenMesh cannot read, and that have no faces. Corners that
 /// are not finite and faces without area stay in: MeshSurface::create counts them. Silences OpenMesh's own messages,
 /// for the whole process. One thread at a time: OpenMesh's readers are shared.
-Expected<TriangleMesh> load_mesh(const std::string& path);
+SWARD_API Expected<TriangleMesh> load_mesh(const std::string& path);
 
 }  // namespace sward

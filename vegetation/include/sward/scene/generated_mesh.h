@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/vegetation/mesh_surface.h>
 #include <string_view>
 
@@ -17,11 +18,11 @@ struct MeshShapeOptions {
 ///   "box_hedge"  a box with rounded edges, clipped by hand: its sides wave by a few centimetres
 ///   "topiary"    a cone with a ball on its top
 /// Triangles of some 0.03 m2, larger in large shapes: at most 200 000. Fails on other names and sizes out of range.
-Expected<TriangleMesh> generate_mesh_shape(std::string_view shape, const MeshShapeOptions& options);
+SWARD_API Expected<TriangleMesh> generate_mesh_shape(std::string_view shape, const MeshShapeOptions& options);
 
 /// A small plant for PlantKind::mesh, 1 m high, its root in the origin, with vertex colours.
 ///   "thistle"  a stem with spiny leaves and a purple head; 300 faces at most
 /// Fails on other names.
-Expected<TriangleMesh> generate_plant_shape(std::string_view shape);
+SWARD_API Expected<TriangleMesh> generate_plant_shape(std::string_view shape);
 
 }  // namespace sward

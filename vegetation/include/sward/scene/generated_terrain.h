@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/color_map.h>
 #include <sward/terrain/height_field.h>
 
@@ -30,6 +31,6 @@ struct GeneratedTerrain {
 ///
 /// Fails on options out of range and where HeightField::create fails. Any thread; uses all of the machine's for
 /// painting. Takes some seconds at the default size; memory is about 80 MB and 5 bytes a texel.
-Expected<GeneratedTerrain> generate_meadow(const GeneratorOptions& options, const Progress& progress = {});
+SWARD_API Expected<GeneratedTerrain> generate_meadow(const GeneratorOptions& options, const Progress& progress = {});
 
 }  // namespace sward

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/scene/scene_wind.h>
 #include <sward/terrain/color_map.h>
 #include <sward/terrain/ground_material.h>
@@ -22,7 +23,7 @@ struct GroundSeason {
 };
 
 /// The factor at a time of the year, between frames as season_values(); 1 without frames.
-glm::vec3 ground_tint(std::span<const GroundSeason> frames, float season);
+SWARD_API glm::vec3 ground_tint(std::span<const GroundSeason> frames, float season);
 
 /// A body that a layer with Layer::on_mesh covers: a file's mesh or a generated one (generate_mesh_shape).
 struct SceneSurface {
@@ -87,7 +88,7 @@ struct SceneDisturbance {
 };
 
 /// A scene as a TOML file names it. Paths are kept as written; resolve() makes them relative to the file's folder.
-struct Scene {
+struct SWARD_API Scene {
   std::string name;
   std::string directory;  ///< Folder of the file, for relative paths; empty for built-in scenes.
 
@@ -152,16 +153,16 @@ struct Scene {
 /// What the ground of a scene is made of, for GroundTextures::set_materials: none without splatting; soil is added to a
 /// list of which nothing is everywhere. Fails where an
 /// image is named that has not been put into Scene::materials.
-Expected<std::vector<GroundMaterial>> ground_materials(const Scene& scene);
+SWARD_API Expected<std::vector<GroundMaterial>> ground_materials(const Scene& scene);
 
 /// Reads and checks a scene. Errors read "FILE:LINE: what is wrong, what was expected"; unknown keys, wrong types,
 /// values out of range and contradictions (a generator and a height file, say) are errors.
-Expected<Scene> load_scene(const std::string& path);
+SWARD_API Expected<Scene> load_scene(const std::string& path);
 /// The same from text; `name` stands for the file in messages.
-Expected<Scene> parse_scene(std::string_view text, const std::string& name);
+SWARD_API Expected<Scene> parse_scene(std::string_view text, const std::string& name);
 /// The files of demo/scenes, embedded at build time.
-std::span<const EmbeddedText> embedded_scenes();
+SWARD_API std::span<const EmbeddedText> embedded_scenes();
 /// Built-in scenes, embedded from demo/scenes: "meadow". Fails naming what there is.
-Expected<Scene> builtin_scene(std::string_view name);
+SWARD_API Expected<Scene> builtin_scene(std::string_view name);
 
 }  // namespace sward

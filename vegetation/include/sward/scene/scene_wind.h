@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/vegetation/placement.h>
 #include <sward/vegetation/wind.h>
 #include <memory>
@@ -31,6 +32,7 @@ struct SceneWind {
 
 /// The painted map over ground from `min` of `size_m` metres; null without maps. Fails where a map is named and not
 /// loaded, or the two differ in size.
-Expected<std::shared_ptr<const PaintedWind>> painted_wind(const SceneWind& wind, glm::dvec2 min, glm::dvec2 size_m);
+SWARD_API Expected<std::shared_ptr<const PaintedWind>> painted_wind(const SceneWind& wind, glm::dvec2 min,
+                                                                    glm::dvec2 size_m);
 
 }  // namespace sward

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/gl/clipmap.h>
 #include <sward/gl/shader_library.h>
 #include <sward/vegetation/seeding.h>
@@ -25,7 +26,7 @@ struct ClipmapSeedingStats {
 ///
 /// What the GPU cannot know stays on the CPU and is read only where the window around the eye has moved on: static
 /// area, place on the map, holes, excluded shapes. GL thread.
-class ClipmapSeeder {
+class SWARD_API ClipmapSeeder {
  public:
   /// `surface` must outlive it and be the clipmap's. Fails on a layer that does not validate, on a shader's error, on a
   /// GL below 4.5 and where the horizon holds more than four million triangles.

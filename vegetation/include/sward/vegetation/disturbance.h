@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/error.h>
 #include <cstddef>
 #include <cstdint>
@@ -73,7 +74,7 @@ struct DisturbanceTiles;
 /// what frees memory.
 ///
 /// One thread at a time. Needs no GL. Move-only.
-class Disturbance {
+class SWARD_API Disturbance {
  public:
   static constexpr double k_visible = 0.02;      ///< Press and water below this are not shown.
   static constexpr double k_most_place = 1e9;    ///< Metres from the origin.

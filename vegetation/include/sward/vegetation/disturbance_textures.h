@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/gl/disturbed_ground.h>
 #include <sward/gl/handles.h>
 #include <sward/vegetation/disturbance.h>
@@ -20,7 +21,7 @@ struct DisturbanceTile;
 /// lets them decay, so that plants rise smoothly with nothing written; every ten half-lives all of it is written anew.
 ///
 /// GL thread. Owns a texture (RGBA16F array, 9 layers, 4.7 MB) and a uniform buffer.
-class DisturbanceTextures {
+class SWARD_API DisturbanceTextures {
  public:
   /// Fails where there is no context of GL 4.5. Leaves all state as it was.
   static Expected<DisturbanceTextures> create();

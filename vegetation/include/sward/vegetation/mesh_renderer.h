@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/gl/frame.h>
 #include <sward/gl/handles.h>
 #include <sward/gl/shader_library.h>
@@ -13,7 +14,7 @@ namespace sward {
 /// Draws the body of a MeshSurface, so that what is seen between its plants is dark and not the sky: near by half of
 /// the light of the mesh's own colour, with distance all of it, as the plants melt into that. Owns its program and
 /// vertices. GL thread.
-class MeshRenderer {
+class SWARD_API MeshRenderer {
  public:
   /// Uploads a copy. `layer` is the one that covers the surface. Fails on a shader's error and on a GL below 4.5.
   static Expected<MeshRenderer> create(const MeshSurface& surface, const Layer& layer, const gl::ShaderLibrary& shaders,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/error.h>
 #include <sward/terrain/fixed_triangles.h>
 #include <sward/terrain/view.h>
@@ -15,7 +16,7 @@
 namespace sward {
 
 /// Triangles of a host, of a file (sward/mesh_source/mesh_source.h) or generated: plain arrays.
-struct TriangleMesh {
+struct SWARD_API TriangleMesh {
   std::vector<glm::dvec3> positions;  ///< Metres.
   std::vector<glm::u8vec3> colors;    ///< sRGB, one a position; empty: the mesh has none.
   std::vector<uint32_t> indices;      ///< Three a face, counter-clockwise seen from outside.
@@ -29,7 +30,7 @@ struct TriangleMesh {
 };
 
 /// What is odd about a mesh. None of it is an error: plants stand on the faces that are left.
-struct MeshReport {
+struct SWARD_API MeshReport {
   size_t dropped_faces = 0;        ///< Without area, or with a corner that is not finite: left out.
   size_t first_dropped = 0;        ///< The first of them, counted from 0.
   size_t open_edges = 0;           ///< With one face: rims of holes.
@@ -47,7 +48,7 @@ struct MeshReport {
 ///  63..58 level | 57..35 face | 34..0 turns, first in bit 34
 /// ```
 /// so that plants depend on the mesh and the area alone. Immutable; safe from several threads.
-class MeshSurface {
+class SWARD_API MeshSurface {
  public:
   static constexpr uint32_t k_max_faces = 1u << 23;
 

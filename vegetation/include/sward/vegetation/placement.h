@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/error.h>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -13,7 +14,7 @@ namespace sward {
 /// A grey image over the whole of the base map, of a size of its own, row 0 in the north. As a mask: 0 forbids, 255
 /// allows, between them a share of the plants stands. Lookups interpolate between texels, except that nothing at all
 /// stands within a texel of 0. Immutable after filling; safe from several threads.
-struct GrayMap {
+struct SWARD_API GrayMap {
   int width = 0, height = 0;    ///< 1..16384 each.
   std::vector<uint8_t> values;  ///< width * height, by rows.
 
@@ -21,7 +22,7 @@ struct GrayMap {
 };
 
 /// Ground on which nothing stands: a disc or a simple polygon (its edges cross nowhere), world x, y in metres.
-struct ExclusionShape {
+struct SWARD_API ExclusionShape {
   std::string layer;                ///< Name of the layer that it is for; empty: all layers.
   glm::dvec2 centre{0};             ///< Of a disc.
   double radius_m = 0;              ///< > 0: a disc, which has no corners. At most 1e6.
@@ -46,7 +47,7 @@ struct ExclusionId {
 /// The shapes of a host, to be given to seed(): roads, runways, houses. They may change between any two calls of it,
 /// and what is seeded next follows; renderers need not know. One thread at a time while it changes; seeding on any
 /// threads while it does not.
-class Exclusions {
+class SWARD_API Exclusions {
  public:
   /// Fails, keeping nothing, where the shape does not validate.
   Expected<ExclusionId> add(ExclusionShape shape);

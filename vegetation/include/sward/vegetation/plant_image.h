@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/error.h>
 #include <cstdint>
 #include <memory>
@@ -13,7 +14,7 @@ namespace sward {
 
 /// A grey image on a plant: its detail or its cutout (Species::detail, Species::cutout). Columns run across the plant,
 /// row 0 is its tip. Immutable, safe from several threads; several species and layers may share one.
-class PlantImage {
+class SWARD_API PlantImage {
  public:
   /// Copies width * height greys, by rows. Fails unless width and height are powers of two from 8 to 2048 and `greys`
   /// is of that size, saying what to do.
@@ -31,10 +32,10 @@ class PlantImage {
 };
 
 /// Details that are generated: "veins" along a blade beside its rib, "fibres" of straw and bark, "mottled" old leaves.
-std::span<const std::string_view> built_in_details();
+SWARD_API std::span<const std::string_view> built_in_details();
 
 /// One of built_in_details(), 256 x 256, its mean half grey, seamless from tip to root; null for any other name. Any
 /// thread. Cost: a millisecond the first time.
-std::shared_ptr<const PlantImage> built_in_detail(std::string_view name);
+SWARD_API std::shared_ptr<const PlantImage> built_in_detail(std::string_view name);
 
 }  // namespace sward

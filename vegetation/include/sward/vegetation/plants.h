@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/color_map.h>
 #include <sward/terrain/surface.h>
 #include <sward/vegetation/disturbance.h>
@@ -29,16 +30,16 @@ struct Plant {
 /// phototropic species ask for it. `disturbance`: what has touched the ground, as it is drawn around the view's eye;
 /// null: nothing; plants keep ids and places. Cost: one look at the map a cluster and one a seed that is shown. Any
 /// thread, while the disturbance is not touched.
-std::vector<Plant> grow_plants(const Layer& layer, const View& view, const ColorMap& map,
-                               const FixedTriangles& triangles, const Seeding& seeding, float sun_azimuth = 0.0f,
-                               const Disturbance* disturbance = nullptr);
+SWARD_API std::vector<Plant> grow_plants(const Layer& layer, const View& view, const ColorMap& map,
+                                         const FixedTriangles& triangles, const Seeding& seeding,
+                                         float sun_azimuth = 0.0f, const Disturbance* disturbance = nullptr);
 
 /// The same for a layer on a mesh, whose colours the seeding holds.
-std::vector<Plant> grow_plants(const Layer& layer, const View& view, const FixedTriangles& triangles,
-                               const Seeding& seeding);
+SWARD_API std::vector<Plant> grow_plants(const Layer& layer, const View& view, const FixedTriangles& triangles,
+                                         const Seeding& seeding);
 
 /// A part of the world seen from above: a rectangle, or a disc.
-struct PlantRegion {
+struct SWARD_API PlantRegion {
   glm::dvec2 low{0}, high{0};  ///< Western, southern and eastern, northern corner, metres; of a disc its bounds.
   double radius_m = 0;         ///< > 0: a disc in the middle of them.
 
@@ -62,14 +63,14 @@ struct PlantQueryOptions {
 /// region that is empty or not finite, and where more than `most_plants` stand there or more than 64 times as many
 /// would have to be looked at. Cost: that of grow_plants for the region's triangles, and three heights each. Any
 /// thread, while the surface does not change.
-Expected<std::vector<Plant>> query_plants(const Layer& layer, const Surface& surface, const ColorMap& map,
-                                          const PlantRegion& region, const PlantQueryOptions& options = {});
+SWARD_API Expected<std::vector<Plant>> query_plants(const Layer& layer, const Surface& surface, const ColorMap& map,
+                                                    const PlantRegion& region, const PlantQueryOptions& options = {});
 
 /// The plants of a layer on a mesh whose roots lie below or above a region, at full density. As query_plants else.
-Expected<std::vector<Plant>> query_plants(const Layer& layer, const MeshSurface& surface, const PlantRegion& region,
-                                          const PlantQueryOptions& options = {});
+SWARD_API Expected<std::vector<Plant>> query_plants(const Layer& layer, const MeshSurface& surface,
+                                                    const PlantRegion& region, const PlantQueryOptions& options = {});
 
 /// Drawn surface z (world) at the point `to_left * a + to_right * b` from the apex, a, b >= 0, a + b <= 1.
-double surface_height(const FixedTriangles& triangles, const FixedTriangle& triangle, float a, float b);
+SWARD_API double surface_height(const FixedTriangles& triangles, const FixedTriangle& triangle, float a, float b);
 
 }  // namespace sward

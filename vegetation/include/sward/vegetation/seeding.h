@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/color_map.h>
 #include <sward/terrain/fixed_triangles.h>
 #include <sward/terrain/view.h>
@@ -85,22 +86,22 @@ struct Seeding {
 /// These two are equations 1 and 2 in plain layers. In others |v| counts as 2 d0 at least, the cosine -n . v / |v| = c
 /// as (c + sqrt(c^2 + 1/4)) / 2, and screen_area takes for S what the second law has, times the squared focal length:
 /// the projected area in the picture's middle, which does not change when the head turns.
-float seed_limit(const Layer& layer, const View& view, const FixedTriangle& triangle);
+SWARD_API float seed_limit(const Layer& layer, const View& view, const FixedTriangle& triangle);
 
 /// Upper edges of the 32 geometric bins between n_min (>= 1) and n_max (>= n_min), smallest first:
 /// e_i = n_min (n_max/n_min)^((i+1)/32); the last is n_max itself.
-std::array<float, k_density_bins> bin_edges(float n_min, float n_max);
+SWARD_API std::array<float, k_density_bins> bin_edges(float n_min, float n_max);
 
 /// Counts, bins and lays out. Clears `out` first; allocates only when a frame needs more than any before. Cost: linear
 /// in the triangles. Triangles without seeds get no record, nor do those that `exclusions` cover; the others carry the
 /// shapes near them. Layers of which needs_altitudes() is true want triangles that have them. Any thread, one `out` a
 /// thread.
-void seed(const Layer& layer, const View& view, const ColorMap& map, const FixedTriangles& triangles, Seeding& out,
-          const Exclusions* exclusions = nullptr);
+SWARD_API void seed(const Layer& layer, const View& view, const ColorMap& map, const FixedTriangles& triangles,
+                    Seeding& out, const Exclusions* exclusions = nullptr);
 
 /// The same for a layer on a mesh (Layer::on_mesh, asserted), whose `triangles` that mesh wrote. Excluded shapes are
 /// places on the ground: they do not reach it.
-void seed(const Layer& layer, const View& view, const MeshSurface& surface, const FixedTriangles& triangles,
-          Seeding& out);
+SWARD_API void seed(const Layer& layer, const View& view, const MeshSurface& surface, const FixedTriangles& triangles,
+                    Seeding& out);
 
 }  // namespace sward

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/color_map.h>
 #include <sward/terrain/error.h>
 #include <sward/vegetation/placement.h>
@@ -225,24 +226,24 @@ inline constexpr int k_most_plant_faces = 512;  ///< Of PlantKind::mesh.
 
 /// What a species resists by: its own value, else 1 for gravel, litter and billboards; other kinds yield up to a largest
 /// height of 1.5 m and stand from 4 m on, linearly in between.
-float resistance_of(const Species& species);
+SWARD_API float resistance_of(const Species& species);
 
 /// Fails naming layer, species, field and range.
-Expected<void> validate(const Layer& layer);
+SWARD_API Expected<void> validate(const Layer& layer);
 
 /// Fails where a file of a mask, a distribution map or a plant's image is named but not loaded.
-Expected<void> require_maps(const Layer& layer);
+SWARD_API Expected<void> require_maps(const Layer& layer);
 
 /// Whether a rule asks for FixedTriangles::altitude().
-bool needs_altitudes(const Layer& layer);
+SWARD_API bool needs_altitudes(const Layer& layer);
 
 /// Values of a species at a time of the year: between two frames eased (smoothstep), hue the shorter way round, from
 /// the last frame to the first across the turn of the year. Without frames the species' own, whole height and density.
-SeasonValues season_values(const Species& species, float season);
+SWARD_API SeasonValues season_values(const Species& species, float season);
 
 /// Highest a plant of the layer can reach above the ground, metres.
-float canopy_height(const Layer& layer);
+SWARD_API float canopy_height(const Layer& layer);
 /// Farthest that a plant of the layer, or its shadow, reaches from its root on the level, metres.
-float canopy_spread(const Layer& layer);
+SWARD_API float canopy_spread(const Layer& layer);
 
 }  // namespace sward

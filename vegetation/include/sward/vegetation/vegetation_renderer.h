@@ -4,6 +4,7 @@
 
 /// sward vegetation: grows plants on triangles. It does not know terrain engines, files, windows or contexts; it draws
 /// into whatever framebuffer is bound.
+#include <sward/api.h>
 #include <sward/gl/frame.h>
 #include <sward/gl/ground.h>
 #include <sward/gl/shader_library.h>
@@ -33,7 +34,7 @@ struct VegetationStats {
 };
 
 /// Draws one layer. Owns its programs, feedback buffers and uniform buffers. GL thread.
-class VegetationRenderer {
+class SWARD_API VegetationRenderer {
  public:
   /// Compiles classification and one growth program a plant kind in use. Fails on a layer that does not validate, on a
   /// shader's error (with the driver's log) and on a GL below 4.5.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/error.h>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -21,7 +22,7 @@ struct Weather {
 };
 
 /// Mean speed of a force on Beaufort's scale, 0 to 12: 0.836 force^1.5 m/s. Clamps to the scale; 0 for NaN.
-float beaufort_speed(float force);
+SWARD_API float beaufort_speed(float force);
 
 /// Wind at a place.
 struct WindHere {
@@ -50,7 +51,7 @@ struct WindSource {
 };
 
 /// A whirlwind of a radius and a speed at that radius, that lasts half a minute unless told otherwise.
-WindSource whirlwind(glm::dvec2 position, float radius_m, float speed_m_s, double start_s);
+SWARD_API WindSource whirlwind(glm::dvec2 position, float radius_m, float speed_m_s, double start_s);
 
 /// What moves among the plants, and the air with it (Lee 2010, "Wind Simulation").
 struct WindMover {
@@ -67,9 +68,9 @@ struct WindMover {
 };
 
 /// Whether a wind would take them; errors name the value and what it may be.
-Expected<void> validate(const Weather& weather);
-Expected<void> validate(const WindSource& source);
-Expected<void> validate(const WindMover& mover);
+SWARD_API Expected<void> validate(const Weather& weather);
+SWARD_API Expected<void> validate(const WindSource& source);
+SWARD_API Expected<void> validate(const WindMover& mover);
 
 /// Value ids; of what has been removed they stay invalid.
 struct WindSourceId {
@@ -104,7 +105,7 @@ struct WindState;
 /// nothing.
 ///
 /// No failing call changes anything.
-class Wind {
+class SWARD_API Wind {
  public:
   Wind();
   Wind(Wind&&) noexcept;

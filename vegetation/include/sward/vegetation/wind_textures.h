@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/gl/handles.h>
 #include <sward/vegetation/wind.h>
 #include <array>
@@ -12,7 +13,7 @@ namespace sward {
 
 /// A Wind on the GPU, for shaders/common_wind.glsl. GL thread. Whoever draws with it binds block() to
 /// Bindings::wind, maps(), grid() and painted() to the units of these names.
-class WindTextures {
+class SWARD_API WindTextures {
  public:
   /// Still air, until the first upload. Fails on a GL below 4.5. About 0.8 MB of textures. Leaves all state as it was.
   static Expected<WindTextures> create();
