@@ -43,7 +43,7 @@ sward_install_library(terrain SET terrain FOLDER terrain RUNTIME runtime REQUIRE
   DESCRIPTION "ROAM terrain: height fields, bounds, meshes, queries")
 sward_install_set(terrain)
 sward_install_library(gl SET vegetation FOLDER terrain RUNTIME runtime REQUIRES sward-terrain epoxy
-  DESCRIPTION "What sward's OpenGL libraries share")
+  LIBS_PRIVATE -ldl DESCRIPTION "What sward's OpenGL libraries share")
 sward_install_library(terrain_gl SET vegetation FOLDER terrain RUNTIME runtime REQUIRES sward-gl
   DESCRIPTION "Drawing ROAM terrain with OpenGL 4.5")
 sward_install_library(vegetation SET vegetation FOLDER vegetation RUNTIME runtime REQUIRES sward-terrain_gl

@@ -79,7 +79,7 @@ vec3 bark_radiance(vec3 normal) {
   vec3 bark = rough * light * vec3(0.80, 0.66, 0.52) * mix(0.7, 1.1, fract(part_self.z * 19.3));
   float facing = max(dot(normal, frame.sun_direction.xyz), 0.0);
   float open = mix(0.75, 0.35, clamp(part_mask.y * 2.0, 0.0, 1.0));
-  return bark * open * (ambient(normal) + sun_light() * 0.7 * facing);
+  return bark * open * (ambient(normal) + sun_light(part_point.xyz) * 0.7 * facing);
 }
 
 vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
@@ -98,6 +98,6 @@ vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   leaf.sun = sunny * mix(species.age_tint.w, 1.0, open * open);
   vec2 tilt = 1.2 * (vec2(fract(number * 53.0), fract(number * 97.0)) - 0.5);
   vec3 own = normalize(normal + vec3(tilt, 0.3 * (number - 0.5)));
-  leaf.sun *= body_light(part_ground.xyz);
+  leaf.sun *= body_light(part_ground.xyz, part_point.xyz);
   return shade_leaf(species, leaf, own, normalize(mix(own, part_ground.xyz, 0.8 * part_ground.w)), to_eye);
 }

@@ -22,12 +22,12 @@ struct LeafSun {
 float leaf_vein(float across) { return 1.0 - 0.12 * exp(-12.0 * across * across); }
 
 // Share of the sun that comes to what grows on a surface: a body that plants cover all around stands between the sun and
-// those on its other side. On terrain all of it.
-float body_light(vec3 surface_normal) {
+// those on its other side; and the host's shadow on the plant at `point`, relative to the eye.
+float body_light(vec3 surface_normal, vec3 point) {
 #if SWARD_ON_MESH
-  return smoothstep(-0.25, 0.30, dot(surface_normal, frame.sun_direction.xyz));
+  return smoothstep(-0.25, 0.30, dot(surface_normal, frame.sun_direction.xyz)) * host_shadow(point);
 #else
-  return 1.0;
+  return host_shadow(point);
 #endif
 }
 
@@ -54,7 +54,7 @@ Leaf grass_leaf(SpeciesParams species, vec4 ground_and_age, float s, float acros
 // A plant's light far away is the ground's. `ground`: its normal; melting, 0 the plant alone, 1 the ground alone.
 vec3 melt_into_ground(vec3 lit, vec3 albedo, vec4 ground, vec3 point) {
   vec3 around =
-      albedo * (ambient(ground.xyz) + sun_light() * max(dot(ground.xyz, frame.sun_direction.xyz), 0.0));
+      albedo * (ambient(ground.xyz) + sun_light(point) * max(dot(ground.xyz, frame.sun_direction.xyz), 0.0));
   return apply_haze(mix(lit, around, ground.w), point);
 }
 

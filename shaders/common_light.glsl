@@ -4,6 +4,7 @@
 // Light, haze and the final colour, the same for terrain, plants, their shadows and the sky. All colours are linear,
 // Rec. 709, until encode_output. Needs common_frame.glsl.
 #include "common_frame.glsl"
+#include "common_host.glsl"
 
 // Haze, and the sky at the horizon, in a direction (unit): brighter and tinted by the sun on its side.
 vec3 horizon_light(vec3 direction) {
@@ -35,16 +36,18 @@ vec3 haze_transmittance(vec3 relative_position) {
 vec3 apply_haze(vec3 color, vec3 relative_position) {
   vec3 left = haze_transmittance(relative_position);
   vec3 direction = relative_position / max(length(relative_position), 1.0e-4);
-  return color * left + horizon_light(direction) * (1.0 - left);
+  return host_fog(color * left + horizon_light(direction) * (1.0 - left), relative_position);
 }
 
-// Direct sun on a surface facing it.
+// Direct sun on a surface facing it, where nothing of the host's stands between.
 vec3 sun_light() { return frame.sun_radiance.rgb * frame.sun_direction.w; }
+vec3 sun_light(vec3 relative_position) { return sun_light() * host_shadow(relative_position); }
 
 // The ground, lit. sun_visibility 0: in full shadow, which is how planar shadows are drawn.
 vec3 shade_ground(vec3 albedo, vec3 normal, vec3 relative_position, float sun_visibility) {
   float facing = max(dot(normal, frame.sun_direction.xyz), 0.0);
-  return apply_haze(albedo * (ambient(normal) + sun_light() * (facing * sun_visibility)), relative_position);
+  vec3 sun = sun_light(relative_position) * (facing * sun_visibility);
+  return apply_haze(albedo * (ambient(normal) + sun), relative_position);
 }
 
 vec3 srgb_encode(vec3 linear) {

@@ -12,7 +12,7 @@ vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   Leaf leaf = grass_leaf(species, part_color, part_mask.y, part_mask.x, own);
   leaf.albedo *= has_cutout() ? 1.0 : relief();
   leaf.albedo *= image_detail(part_mask.xy);
-  leaf.sun *= body_light(part_ground.xyz);
+  leaf.sun *= body_light(part_ground.xyz, part_point.xyz);
   vec3 normal = normalize(part_normal.xyz);
   normal *= dot(normal, to_eye) < 0.0 ? -1.0 : 1.0;
   Canopy canopy = canopy_of(sward_layer.layer, species, dot(part_ground.xyz, frame.sun_direction.xyz));

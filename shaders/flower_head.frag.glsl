@@ -30,7 +30,7 @@ vec3 head_light() {
   // Less light comes down into a bowl.
   float depth = clamp(species.own_b.w, 0.0, 1.0) * (whole ? 0.35 : 1.0 - min(radius, 1.0));
   leaf.sky = vec3(1.0 - 0.75 * depth);
-  leaf.sun = 1.0 - 0.4 * depth;
+  leaf.sun = (1.0 - 0.4 * depth) * host_shadow(strip_point.xyz);
   return apply_haze(lit_leaf(species, leaf), strip_point.xyz);
 }
 

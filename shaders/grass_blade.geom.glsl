@@ -167,7 +167,7 @@ void emit_blade(Plant plant) {
   for (int i = 0; i < 2; ++i) {
     float height = max(dot(plant.plane, line_point[i].xyz - plant.root), 0.0);
     sections[i].canopy = field_light(species, canopy_light(canopy, height), plant.far);
-    sections[i].canopy.y *= body_light(surface);
+    sections[i].canopy.y *= body_light(surface, to_world(sections[i].middle));
   }
   float roundness = 0.5 + 0.6 * (plant.edge_share - 0.35);
   emit_leaf_end(0, plant, sections[0], roundness);

@@ -33,7 +33,7 @@ vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   stone *= mix(species.tint.rgb, species.age_tint.rgb, part_color.w) * mix(0.85, 1.75, own * own);
   stone *= grain(part_point.xyz);
   // Light from the ground next to it warms the sides.
-  vec3 bounce = 0.35 * ground * sun_light() * max(frame.sun_direction.z, 0.0);
+  vec3 bounce = 0.35 * ground * sun_light(part_point.xyz) * max(frame.sun_direction.z, 0.0);
   vec3 normal = normalize(part_normal.xyz);
   vec3 sun = frame.sun_direction.xyz;
   float open = mix(species.age_tint.w, 1.0, smoothstep(-0.1, 0.35, part_point.w / max(part_normal.w, 1.0e-3)));
@@ -42,5 +42,5 @@ vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   float shine = facing > 0.0 ? 0.25 * species.optics.z * gloss : 0.0;
   float low = 0.5 - 0.5 * dot(normal, part_ground.xyz);
   vec3 around = ambient(normal) * open + bounce * low;
-  return around * stone + sun_light() * mix(open, 1.0, 0.5) * (stone * facing + vec3(shine));
+  return around * stone + sun_light(part_point.xyz) * mix(open, 1.0, 0.5) * (stone * facing + vec3(shine));
 }

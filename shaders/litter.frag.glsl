@@ -38,7 +38,7 @@ vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   leaf.sky = vec3(mix(species.age_tint.w, 1.0, 0.7));
   leaf.sun = 1.0;
   vec3 normal = normalize(part_normal.xyz);
-  leaf.sun *= body_light(part_ground.xyz);
+  leaf.sun *= body_light(part_ground.xyz, part_point.xyz);
   normal *= dot(normal, to_eye) < 0.0 ? -1.0 : 1.0;
   return shade_leaf(species, leaf, normal, normalize(mix(normal, part_ground.xyz, part_ground.w)), to_eye);
 }

@@ -15,7 +15,7 @@ vec3 object_radiance(SpeciesParams species, vec3 to_eye) {
   Canopy canopy = canopy_of(sward_layer.layer, species, dot(part_ground.xyz, frame.sun_direction.xyz));
   vec2 light = canopy_light(canopy, max(part_point.w, 0.0));
   leaf.sky = vec3(light.x);
-  leaf.sun = light.y * body_light(part_ground.xyz);
+  leaf.sun = light.y * body_light(part_ground.xyz, part_point.xyz);
   vec3 normal = normalize(part_normal.xyz);
   normal *= dot(normal, to_eye) < 0.0 ? -1.0 : 1.0;
   vec3 shading = normalize(mix(normal, part_ground.xyz, mix(0.1, 0.8, part_ground.w)));

@@ -193,44 +193,5 @@ TEST_F(ClipmapDraw, UploadsFollowTheMotion) {
   EXPECT_LE(most, 4 * side);
 }
 
-// ---- What calls leave.
-
-TEST_F(ClipmapDraw, CreationAndFollowChangeNothing) {
-  const ClipmapGround ground;
-  const PoisonedState poison;
-  const GlState before = capture_state();
-  auto clipmap = gl::Clipmap::create(*ground.surface, {64});
-  ASSERT_TRUE(clipmap) << clipmap.error().message;
-  auto renderer = ClipmapRenderer::create(gl::ShaderLibrary());
-  ASSERT_TRUE(renderer) << renderer.error().message;
-  clipmap->follow(view_over(ground, {0, 0}, 1.7, 0, 0));
-  clipmap->follow(view_over(ground, {30, 5}, 1.7, 0, 0));
-  expect_only_changed(before, capture_state(), {});
-}
-
-TEST_F(ClipmapDraw, DrawLeavesWhatItSays) {
-  Stage stage({});
-  auto target = host::RenderTarget::create({32, 24}, 1);
-  ASSERT_TRUE(target) << target.error().message;
-  const View view = view_over(stage.ground, {0, 0}, 1.7, 0, -10, {32, 24});
-  stage.clipmap.follow(view);
-  stage.frame.upload(view, stage.light, 0, 1);
-  Stage::begin(*target, {1, 0, 1});
-  const PoisonedState poison;
-  const GlState before = capture_state();
-  stage.renderer.draw(view, stage.clipmap, stage.frame, stage.textures);
-  const gl::Bindings bindings;
-  GlState left{{"program", {0}}, {"vertex array", {0}}};
-  left["uniform buffer " + std::to_string(bindings.frame)] = {0};
-  left["uniform buffer " + std::to_string(bindings.clipmap)] = {0};
-  left["uniform buffer " + std::to_string(bindings.materials)] = {0};
-  left["uniform buffer " + std::to_string(bindings.disturbance)] = {0};
-  for (const GLuint unit : {bindings.base_map, bindings.slope_map, bindings.detail, bindings.detail_slope,
-                            bindings.clipmap_heights, bindings.clipmap_relief, bindings.disturbance_map})
-    for (const char* kind : {"texture 2D ", "texture 2D array ", "texture buffer ", "sampler "})
-      left[kind + std::to_string(unit)] = {0};
-  expect_only_changed(before, capture_state(), left);
-}
-
 }  // namespace
 }  // namespace sward

@@ -190,12 +190,14 @@ TEST_F(Ground, RefusesMapsBeyondTheDevice) {
 TEST_F(Ground, CreationLeavesStateAsItWas) {
   const HeightField field = field_of(5, 4, {1, 1}, [](double x, double) { return x; });
   const ColorMap map = numbered_map(5, 3);
-  const test::PoisonedState poison;
-  const test::GlState before = test::capture_state();
-  const Expected<gl::GroundTextures> ground = gl::GroundTextures::create(field, map);
+  Expected<gl::GroundTextures> ground = fail("not made");
+  {
+    const test::PoisonedState poison;
+    const test::GlState before = test::capture_state();
+    ground = gl::GroundTextures::create(field, map);
+    test::expect_only_changed(before, test::capture_state(), {});
+  }
   ASSERT_TRUE(ground) << ground.error().message;
-  test::expect_only_changed(before, test::capture_state(), {});
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   std::vector<glm::u8vec4> read(15);
   glGetTextureImage(ground->base_map_raw(), 0, GL_RGBA, GL_UNSIGNED_BYTE, 60, read.data());

@@ -244,27 +244,6 @@ TEST_F(MeshSurfaces, TheBodyFillsTheGaps) {
   EXPECT_GT(mean.g, 1.1 * mean.b);
 }
 
-TEST_F(MeshSurfaces, TheBodyLeavesWhatItSays) {
-  auto surface = MeshSurface::create(topiary());
-  ASSERT_TRUE(surface);
-  auto frame = gl::Frame::create();
-  ASSERT_TRUE(frame);
-  const View view = View::look({-4, 0, 1.2}, 0, 0, 60 * k_degree, k_size, 0.05, 100);
-  frame->upload(view, gl::Lighting(), 0, 1);
-  auto target = host::RenderTarget::create(k_size, 1);
-  ASSERT_TRUE(target) << target.error().message;
-  target->begin();
-  const PoisonedState poison;
-  const GlState before = capture_state();
-  auto body = MeshRenderer::create(*surface, ivy(), gl::ShaderLibrary());
-  ASSERT_TRUE(body) << body.error().message;
-  expect_only_changed(before, capture_state(), {});
-  body->draw(view, *frame);
-  const std::string unit = "uniform buffer " + std::to_string(gl::Bindings().frame);
-  expect_only_changed(before, capture_state(),
-                      {{"program", {0}}, {"vertex array", {0}}, {"uniform buffer", {0}}, {unit, {0}}});
-}
-
 // An independent compiler must accept what we hand to drivers.
 TEST(MeshShaders, AreStrictGlsl) {
   if (std::system("glslangValidator --version > /dev/null 2>&1") != 0)

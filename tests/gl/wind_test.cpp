@@ -207,13 +207,15 @@ TEST_F(WindOnGpu, UploadsLeaveAllState) {
   stir();
   go(1);
   ASSERT_TRUE(wind_.set_painted(painted));
-  const PoisonedState poison;
-  const GlState before = capture_state();
-  auto textures = WindTextures::create();
-  ASSERT_TRUE(textures);
-  expect_only_changed(before, capture_state(), {});
-  textures->upload(wind_, eye_);
-  expect_only_changed(before, capture_state(), {});
+  Expected<WindTextures> textures = fail("not made");
+  {
+    const PoisonedState poison;
+    const GlState before = capture_state();
+    textures = WindTextures::create();
+    ASSERT_TRUE(textures);
+    textures->upload(wind_, eye_);
+    expect_only_changed(before, capture_state(), {});
+  }
   expect_twins(wind_, *textures, eye_, 60);
 }
 

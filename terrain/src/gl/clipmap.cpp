@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "terrain/usable_view.h"
+
 namespace sward::gl {
 
 // std140.
@@ -67,6 +69,7 @@ Expected<Clipmap> Clipmap::create(const Surface& surface, const ClipmapOptions& 
   auto rings = ClipmapRings::create(surface, options);
   if (!rings) return tl::unexpected(rings.error());
   Clipmap clipmap(std::move(*rings));
+  clipmap.home_ = HomeContext::of_current();
   const int texels = clipmap.rings_.texels(), layers = clipmap.rings_.rings();
   clipmap.heights_ = make_array(GL_R32F, texels, layers);
   clipmap.relief_ = make_array(GL_RG16F, texels, layers);
@@ -99,6 +102,7 @@ void Clipmap::send(const ClipmapRings::Change& change, Upload& upload) {
 
 Clipmap::Upload Clipmap::follow(const View& view, size_t most_points) {
   Upload upload;
+  if (!home_.shared_here("Clipmap::follow") || !usable(view, "Clipmap::follow")) return upload;
   const std::span<const ClipmapRings::Change> changes = rings_.follow(view, most_points);
   if (!changes.empty()) {
     const DefaultUnpack unpack;
@@ -110,6 +114,10 @@ Clipmap::Upload Clipmap::follow(const View& view, size_t most_points) {
   glNamedBufferSubData(block_.id(), 0, sizeof uniforms, &uniforms);
   upload.bytes += sizeof uniforms;
   return upload;
+}
+
+size_t Clipmap::gpu_bytes() const {
+  return storage_bytes(heights_) + storage_bytes(relief_) + storage_bytes(block_);
 }
 
 }  // namespace sward::gl

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "terrain/usable_view.h"
+
 namespace sward::gl {
 
 // std140: every member starts at a multiple of 16 bytes, matrices are four columns.
@@ -68,6 +70,7 @@ FrameUniforms make_frame_uniforms(const View& view, const Lighting& lighting, do
 Expected<Frame> Frame::create(const Bindings& bindings) {
   if (Expected<void> context = require_context(); !context) return tl::unexpected(context.error());
   Frame frame;
+  frame.home_ = HomeContext::of_current();
   frame.bindings_ = bindings;
   frame.buffer_ = create_buffer();
   glNamedBufferStorage(frame.buffer_.id(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
@@ -75,9 +78,17 @@ Expected<Frame> Frame::create(const Bindings& bindings) {
 }
 
 void Frame::upload(const View& view, const Lighting& lighting, double time_s, int samples) {
+  if (!home_.shared_here("Frame::upload") || !usable(view, "Frame::upload")) return;
+  SWARD_ASSERT(std::isfinite(time_s), "Frame::upload: the time is no finite number of seconds");
+  SWARD_ASSERT(samples >= 1, "Frame::upload: a target has at least one sample; give 1 where it is not multisampled");
+  if (!std::isfinite(time_s) || samples < 1) return;
   const FrameUniforms uniforms = make_frame_uniforms(view, lighting, time_s, samples);
   samples_ = samples;
   glNamedBufferSubData(buffer_.id(), 0, sizeof uniforms, &uniforms);
+}
+
+size_t Frame::gpu_bytes() const {
+  return storage_bytes(buffer_);
 }
 
 }  // namespace sward::gl

@@ -109,4 +109,12 @@ void GroundTextures::update_slopes(const HeightField& field, const LatticeBox& c
   slopes_.update(field, changed);
 }
 
+// The raw base map is a view of the other.
+size_t GroundTextures::gpu_bytes() const {
+  size_t bytes = slopes_.gpu_bytes() + storage_bytes(materials_) + storage_bytes(undisturbed_);
+  for (const Texture* texture : {&base_map_, &detail_, &detail_slope_, &untouched_map_})
+    bytes += storage_bytes(*texture);
+  return bytes;
+}
+
 }  // namespace sward::gl

@@ -113,6 +113,7 @@ Expected<void> GroundTextures::set_materials(std::span<const GroundMaterial> mat
   if (Expected<void> valid = validate(materials); !valid) return valid;
   Layers layers;
   const MaterialBlock block = make_block(materials, layers);
+  if (Expected<void> context = require_context(); !context) return context;
   GLint most = 0;
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
   if (layers.count() > most) {

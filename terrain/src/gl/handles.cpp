@@ -15,7 +15,8 @@ Owner create(Create create_one) {
 }
 
 constexpr GLenum k_unpack_names[] = {GL_UNPACK_ALIGNMENT,   GL_UNPACK_ROW_LENGTH, GL_UNPACK_IMAGE_HEIGHT,
-                                     GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_ROWS,  GL_UNPACK_SWAP_BYTES};
+                                     GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_ROWS,  GL_UNPACK_SWAP_BYTES,
+                                     GL_UNPACK_SKIP_IMAGES};
 
 }  // namespace
 
@@ -61,12 +62,28 @@ Framebuffer create_framebuffer() {
   return create<Framebuffer>([](GLuint* id) { glCreateFramebuffers(1, id); });
 }
 
-Expected<void> require_context() {
-  const int version = epoxy_gl_version();
-  if (version >= 45) return {};
-  if (version == 0) return fail("no OpenGL context is current; make one of at least version 4.5 current first");
-  return fail("OpenGL " + std::to_string(version / 10) + "." + std::to_string(version % 10) +
-              " is current, sward needs at least 4.5");
+size_t storage_bytes(const Buffer& buffer) {
+  GLint64 bytes = 0;
+  if (buffer && current_context() != nullptr) glGetNamedBufferParameteri64v(buffer.id(), GL_BUFFER_SIZE, &bytes);
+  return size_t(bytes);
+}
+
+size_t storage_bytes(const Texture& texture) {
+  if (!texture || current_context() == nullptr) return 0;
+  const auto of_level = [&](GLint level, GLenum name) {
+    GLint value = 0;
+    glGetTextureLevelParameteriv(texture.id(), level, name, &value);
+    return size_t(value);
+  };
+  GLint levels = 0;
+  glGetTextureParameteriv(texture.id(), GL_TEXTURE_IMMUTABLE_LEVELS, &levels);
+  size_t texels = 0, bits = 0;
+  for (GLint level = 0; level < levels; ++level)
+    texels += of_level(level, GL_TEXTURE_WIDTH) * of_level(level, GL_TEXTURE_HEIGHT) *
+              of_level(level, GL_TEXTURE_DEPTH);
+  for (const GLenum channel : {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE})
+    bits += of_level(0, channel);
+  return texels * bits / 8;
 }
 
 bool software_renderer() {

@@ -14,7 +14,7 @@ namespace sward::gl {
 
 namespace {
 
-struct ShaderTraits {
+struct ShaderTraits : SharedTraits {
   static void destroy(GLuint id) { glDeleteShader(id); }
 };
 using Shader = Handle<ShaderTraits>;

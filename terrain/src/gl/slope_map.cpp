@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -63,6 +64,7 @@ void halve(std::vector<glm::vec2>& texels, glm::ivec2 size) {
 }  // namespace
 
 struct SlopeMap::Impl {
+  HomeContext home = HomeContext::of_current();
   Lattice lattice;
   SlopeTiles tiles;
   Texture texture;
@@ -127,8 +129,11 @@ Expected<SlopeMap> SlopeMap::create(const Surface& surface, const SlopeMapOption
 }
 
 void SlopeMap::follow(const Surface& surface, glm::dvec2 eye, size_t tiles) {
+  if (!impl_->home.shared_here("SlopeMap::follow")) return;
   const Lattice& lattice = impl_->lattice;
   SWARD_ASSERT(surface.lattice() == lattice, "the slope map was created for another surface");
+  SWARD_ASSERT(std::isfinite(eye.x) && std::isfinite(eye.y),
+               "the eye of a slope map has a number that is NaN or infinite");
   const glm::dvec2 from_middle = (eye - glm::dvec2(lattice.origin)) / lattice.spacing;
   impl_->tiles.follow(glm::dvec2(from_middle.x, -from_middle.y) +
                       0.5 * glm::dvec2(lattice.columns - 1, lattice.rows - 1));
@@ -150,6 +155,7 @@ bool SlopeMap::settled() const {
 }
 
 void SlopeMap::update(const HeightField& field, const LatticeBox& changed) {
+  if (!impl_->home.shared_here("SlopeMap::update")) return;
   const glm::ivec2 samples(field.desc().columns, field.desc().rows);
   SWARD_ASSERT(samples == impl_->tiles.texels(), "the slope map was made from a field of another size");
   if (changed.empty()) return;
@@ -191,6 +197,10 @@ double SlopeMap::reach() const {
 
 glm::dvec2 SlopeMap::spacing() const {
   return impl_->lattice.spacing;
+}
+
+size_t SlopeMap::gpu_bytes() const {
+  return storage_bytes(impl_->texture);
 }
 
 }  // namespace sward::gl

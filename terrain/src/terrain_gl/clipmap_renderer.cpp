@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "gl/bind.h"
+#include "terrain/usable_view.h"
 #include "terrain_gl/ground_shading.h"
 
 namespace sward {
@@ -46,6 +48,7 @@ Expected<ClipmapRenderer> ClipmapRenderer::create(const gl::ShaderLibrary& shade
   if (!program) return tl::unexpected(program.error());
 
   ClipmapRenderer renderer;
+  renderer.home_ = gl::HomeContext::of_current();
   renderer.bindings_ = bindings;
   renderer.program_ = std::move(*program);
   const std::vector<uint16_t> indices = block_indices();
@@ -67,6 +70,7 @@ uint32_t ClipmapRenderer::triangles() const {
 
 void ClipmapRenderer::draw(const View& view, const gl::Clipmap& clipmap, const gl::Frame& frame,
                            const gl::GroundTextures& ground) {
+  if (!home_.here("ClipmapRenderer::draw") || !usable(view, "ClipmapRenderer::draw")) return;
   clipmap.rings().visible_blocks(view, blocks_);
   if (blocks_.empty()) return;
   instance_data_.clear();
@@ -82,18 +86,19 @@ void ClipmapRenderer::draw(const View& view, const gl::Clipmap& clipmap, const g
                        instance_data_.data());
 
   const GroundShading shading(program_, bindings_, view, frame, ground);
-  bind_uniforms(bindings_.clipmap, clipmap.block());
+  gl::bind_uniforms(bindings_.clipmap, clipmap.block());
   const GLuint units[] = {bindings_.clipmap_heights, bindings_.clipmap_relief};
   const GLuint textures[] = {clipmap.heights(), clipmap.relief()};
-  for (int i = 0; i < 2; ++i) {
-    glBindTextureUnit(units[i], textures[i]);
-    glBindSampler(units[i], 0);
-  }
+  for (int i = 0; i < 2; ++i) gl::bind_texture(units[i], textures[i]);
   glBindVertexArray(vertex_array_.id());
   glDrawElementsInstanced(GL_TRIANGLES, k_indices, GL_UNSIGNED_SHORT, nullptr, GLsizei(blocks_.size()));
   glBindVertexArray(0);
   for (const GLuint unit : units) glBindTextureUnit(unit, 0);
-  bind_uniforms(bindings_.clipmap, 0);
+  gl::bind_uniforms(bindings_.clipmap, 0);
+}
+
+size_t ClipmapRenderer::gpu_bytes() const {
+  return gl::storage_bytes(indices_) + gl::storage_bytes(instances_);
 }
 
 }  // namespace sward

@@ -3,7 +3,11 @@
 
 #include "terrain_gl/ground_shading.h"
 
+#include "gl/bind.h"
+
 namespace sward {
+
+using gl::bind_texture, gl::bind_uniforms;
 
 namespace {
 
@@ -36,10 +40,6 @@ void set_slopes(const gl::Program& program, const glm::dvec3& eye, const gl::Slo
 
 }  // namespace
 
-void bind_uniforms(GLuint index, GLuint buffer) {
-  glBindBuffersBase(GL_UNIFORM_BUFFER, index, 1, &buffer);
-}
-
 GroundShading::GroundShading(const gl::Program& program, const gl::Bindings& bindings, const View& view,
                              const gl::Frame& frame, const gl::GroundTextures& ground)
     : bindings_(bindings) {
@@ -50,13 +50,13 @@ GroundShading::GroundShading(const gl::Program& program, const gl::Bindings& bin
            glm::vec4(glm::vec2(ground.data_min() - eye), glm::vec2(ground.data_max() - eye)));
   glUseProgram(program.id());
   bind_uniforms(bindings_.frame, frame.buffer());
-  glBindTextureUnit(bindings_.base_map, ground.base_map());
-  glBindTextureUnit(bindings_.slope_map, ground.slopes().texture());
-  glBindTextureUnit(bindings_.detail, ground.detail());
-  glBindTextureUnit(bindings_.detail_slope, ground.detail_slope());
+  bind_texture(bindings_.base_map, ground.base_map());
+  bind_texture(bindings_.slope_map, ground.slopes().texture());
+  bind_texture(bindings_.detail, ground.detail());
+  bind_texture(bindings_.detail_slope, ground.detail_slope());
   bind_uniforms(bindings_.materials, ground.materials());
   bind_uniforms(bindings_.disturbance, ground.disturbed().block);
-  glBindTextureUnit(bindings_.disturbance_map, ground.disturbed().map);
+  bind_texture(bindings_.disturbance_map, ground.disturbed().map);
 }
 
 GroundShading::~GroundShading() {

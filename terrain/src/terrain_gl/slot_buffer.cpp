@@ -48,4 +48,8 @@ size_t SlotBuffer::write_slots(const void* data, size_t slots, std::span<const u
   return written;
 }
 
+size_t SlotBuffer::gpu_bytes() const {
+  return gl::storage_bytes(buffer_);
+}
+
 }  // namespace sward

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 
+#include "terrain/usable_view.h"
 #include "terrain_gl/ground_shading.h"
 
 namespace sward {
@@ -26,6 +27,7 @@ Expected<TerrainRenderer> TerrainRenderer::create(const gl::ShaderLibrary& shade
   if (!program) return tl::unexpected(program.error());
 
   TerrainRenderer renderer;
+  renderer.home_ = gl::HomeContext::of_current();
   renderer.vertices_ = SlotBuffer(sizeof(RoamVertex));
   renderer.triangles_ = SlotBuffer(3 * sizeof(uint32_t));
   renderer.bindings_ = bindings;
@@ -45,7 +47,7 @@ Expected<TerrainRenderer> TerrainRenderer::create(const gl::ShaderLibrary& shade
 }
 
 size_t TerrainRenderer::upload(const RoamMesh& mesh) {
-  if (mesh.revision() == revision_) return 0;
+  if (!home_.here("TerrainRenderer::upload") || mesh.revision() == revision_) return 0;
   const bool follows = mesh.revision() == revision_ + 1;
   size_t written = 0;
   if (vertices_.fit(mesh.vertices().size())) {
@@ -74,7 +76,7 @@ size_t TerrainRenderer::upload(const RoamMesh& mesh) {
 }
 
 void TerrainRenderer::draw(const View& view, const gl::Frame& frame, const gl::GroundTextures& ground) {
-  if (index_count_ == 0) return;
+  if (!home_.here("TerrainRenderer::draw") || !usable(view, "TerrainRenderer::draw") || index_count_ == 0) return;
   const glm::vec3 origin_from_eye(origin_ - view.eye);
   glProgramUniform3f(program_.id(), k_origin_from_eye, origin_from_eye.x, origin_from_eye.y, origin_from_eye.z);
   glProgramUniform1f(program_.id(), k_morph_time, morph_time_);
@@ -82,6 +84,10 @@ void TerrainRenderer::draw(const View& view, const gl::Frame& frame, const gl::G
   glBindVertexArray(vertex_array_.id());
   glDrawElements(GL_TRIANGLES, GLsizei(index_count_), GL_UNSIGNED_INT, nullptr);
   glBindVertexArray(0);
+}
+
+size_t TerrainRenderer::gpu_bytes() const {
+  return vertices_.gpu_bytes() + triangles_.gpu_bytes();
 }
 
 }  // namespace sward

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "gl/bind.h"
 #include "vegetation/clipmap_seeder_buffers.h"
 #include "vegetation/vegetation_renderer_buffers.h"
 
@@ -59,6 +60,7 @@ uint32_t add_surface(const ClipmapRings& rings, TriangleId id, const TriangleCor
 }  // namespace
 
 struct ClipmapSeeder::Impl {
+  gl::HomeContext home;
   Layer layer;
   const Surface* surface;
   gl::Bindings bindings;
@@ -111,15 +113,14 @@ void ClipmapSeeder::Impl::write_ground() {
 }
 
 void ClipmapSeeder::Impl::bind(const gl::Clipmap& clipmap) const {
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings.clipmap, clipmap.block());
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings.seeding, uniforms.id());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, bindings.seed_ground, ground.id());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, bindings.seed_counts, counts.id());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, bindings.seed_groups, groups.id());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, bindings.seed_frame, frame.id());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, bindings.seed_records, records.buffer.id());
-  glBindTextureUnit(bindings.clipmap_heights, clipmap.heights());
-  glBindSampler(bindings.clipmap_heights, 0);
+  gl::bind_uniforms(bindings.clipmap, clipmap.block());
+  gl::bind_uniforms(bindings.seeding, uniforms.id());
+  gl::bind_storage(bindings.seed_ground, ground.id());
+  gl::bind_storage(bindings.seed_counts, counts.id());
+  gl::bind_storage(bindings.seed_groups, groups.id());
+  gl::bind_storage(bindings.seed_frame, frame.id());
+  gl::bind_storage(bindings.seed_records, records.buffer.id());
+  gl::bind_texture(bindings.clipmap_heights, clipmap.heights());
 }
 
 void ClipmapSeeder::Impl::unbind() const {
@@ -127,9 +128,9 @@ void ClipmapSeeder::Impl::unbind() const {
   glBindTextureUnit(bindings.clipmap_heights, 0);
   for (const GLuint index :
        {bindings.seed_ground, bindings.seed_counts, bindings.seed_groups, bindings.seed_frame, bindings.seed_records})
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, index, 0);
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings.seeding, 0);
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings.clipmap, 0);
+    gl::bind_storage(index, 0);
+  gl::bind_uniforms(bindings.seeding, 0);
+  gl::bind_uniforms(bindings.clipmap, 0);
 }
 
 void ClipmapSeeder::Impl::dispatch() const {
@@ -160,7 +161,8 @@ Expected<ClipmapSeeder> ClipmapSeeder::create(const Layer& layer, const Surface&
   auto programs = build_programs(shaders, bindings);
   if (!programs) return tl::unexpected(programs.error());
   auto impl =
-      std::make_unique<Impl>(Impl{.layer = layer,
+      std::make_unique<Impl>(Impl{.home = gl::HomeContext::of_current(),
+                                  .layer = layer,
                                   .surface = &surface,
                                   .bindings = bindings,
                                   .programs = std::move(*programs),
@@ -183,7 +185,11 @@ const Layer& ClipmapSeeder::layer() const {
 
 Expected<void> ClipmapSeeder::seed(const View& view, const gl::Clipmap& clipmap, const Exclusions* exclusions) {
   Impl& self = *impl_;
-  SWARD_ASSERT(&clipmap.rings().surface() == self.surface, "the clipmap is another surface's");
+  if (!self.home.here("ClipmapSeeder::seed")) return fail("ClipmapSeeder::seed: its OpenGL context is not current");
+  if (auto valid = view.validate(); !valid) return valid;
+  const bool same_surface = &clipmap.rings().surface() == self.surface;
+  SWARD_ASSERT(same_surface, "the clipmap is another surface's");
+  if (!same_surface) return fail("ClipmapSeeder::seed: the clipmap is another surface's");
   self.seeded = false;
   if (auto followed = self.follow(view, exclusions); !followed) return followed;
   const SeedingUniforms uniforms = make_seeding_uniforms(self.layer, view, self.surface->lattice(), self.table);
@@ -208,6 +214,7 @@ void ClipmapSeeder::changed(const LatticeBox& box) {
 }
 
 ClipmapSeedingStats ClipmapSeeder::stats(bool wait) {
+  if (!impl_->home.here("ClipmapSeeder::stats")) return {};
   const auto [n_min, n_max, seeded, visible, clusters, a, b, c] = impl_->back.newest(wait);
   return {visible, seeded, clusters};
 }
@@ -215,7 +222,9 @@ ClipmapSeedingStats ClipmapSeeder::stats(bool wait) {
 void ClipmapSeeder::read_back(const View& view, const gl::Clipmap& clipmap, FixedTriangles& triangles,
                               Seeding& seeding) const {
   const Impl& self = *impl_;
+  if (!self.home.here("ClipmapSeeder::read_back")) return;
   SWARD_ASSERT(self.seeded, "nothing was seeded that could be read back");
+  if (!self.seeded) return;
   SeedFrame frame;
   glGetNamedBufferSubData(self.frame.id(), 0, sizeof frame, &frame);
   seeding.bins = {};
@@ -271,6 +280,15 @@ size_t ClipmapSeeder::most_clusters() const {
 }
 bool ClipmapSeeder::seeded() const {
   return impl_->seeded;
+}
+
+size_t ClipmapSeeder::gpu_bytes() const {
+  const Impl& self = *impl_;
+  size_t bytes = self.back.gpu_bytes();
+  for (const gl::Buffer* buffer : {&self.uniforms, &self.frame, &self.ground, &self.counts, &self.groups,
+                                   &self.records.buffer, &self.exclusions.buffer})
+    bytes += gl::storage_bytes(*buffer);
+  return bytes;
 }
 
 }  // namespace sward

@@ -59,6 +59,7 @@ SeedFrameReadBack SeedFrameReadBack::create() {
 }
 
 SeedFrameReadBack::~SeedFrameReadBack() {
+  if (gl::current_context() == nullptr) return;  // they go with their context
   for (GLsync fence : fences_)
     if (fence != nullptr) glDeleteSync(fence);
 }

@@ -67,6 +67,7 @@ class SeedFrameReadBack {
   }
   /// Asks for the first `k_bytes` of a buffer.
   void request(GLuint buffer);
+  size_t gpu_bytes() const { return gl::storage_bytes(buffer_); }
   using Head = std::array<uint32_t, 8>;  ///< SeedFrame up to its edges.
   /// The newest frame that has arrived; `wait` blocks for the last one requested.
   Head newest(bool wait);

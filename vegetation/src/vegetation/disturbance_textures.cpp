@@ -71,6 +71,7 @@ uint32_t regrow_step(const DisturbanceTile& tile, uint32_t now) {
 Expected<DisturbanceTextures> DisturbanceTextures::create() {
   if (auto context = gl::require_context(); !context) return tl::unexpected(context.error());
   DisturbanceTextures made;
+  made.home_ = gl::HomeContext::of_current();
   made.map_ = gl::create_texture(GL_TEXTURE_2D_ARRAY);
   const GLuint id = made.map_.id();
   glTextureStorage3D(id, 1, GL_RGBA16F, k_side, k_side, k_tile_levels * k_layers);
@@ -112,6 +113,7 @@ bool DisturbanceTextures::stale(const Disturbance& disturbance, glm::dvec2 eye) 
 }
 
 DisturbanceTextures::Upload DisturbanceTextures::upload(const Disturbance& disturbance, glm::dvec2 eye) {
+  if (!home_.shared_here("DisturbanceTextures::upload")) return {};
   SWARD_ASSERT(std::abs(eye.x) <= Disturbance::k_most_place && std::abs(eye.y) <= Disturbance::k_most_place,
                "the eye must be within 1e9 m");
   Upload written;
@@ -211,6 +213,10 @@ void DisturbanceTextures::write_block(const DisturbanceTiles& tiles, glm::dvec2 
   }
   values_ = block;
   glNamedBufferSubData(block_.id(), 0, sizeof values_, &values_);
+}
+
+size_t DisturbanceTextures::gpu_bytes() const {
+  return gl::storage_bytes(map_) + gl::storage_bytes(block_);
 }
 
 }  // namespace sward

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 
+#include "gl/bind.h"
+#include "terrain/usable_view.h"
 #include "vegetation/vegetation_renderer_buffers.h"
 
 namespace sward {
@@ -66,6 +68,7 @@ Expected<MeshRenderer> MeshRenderer::create(const MeshSurface& surface, const La
                                 .feedback_varyings = {}});
   if (!program) return tl::unexpected(program.error());
   MeshRenderer renderer;
+  renderer.home_ = gl::HomeContext::of_current();
   renderer.program_ = std::move(*program);
   renderer.origin_ = surface.corners().front();
   const std::vector<BodyVertex> vertices = body_vertices(surface, renderer.origin_);
@@ -78,17 +81,22 @@ Expected<MeshRenderer> MeshRenderer::create(const MeshSurface& surface, const La
 }
 
 void MeshRenderer::draw(const View& view, const gl::Frame& frame) {
+  if (!home_.here("MeshRenderer::draw") || !usable(view, "MeshRenderer::draw")) return;
   const glm::vec3 origin_from_eye(origin_ - view.eye);
   const GLuint program = program_.id();
   glProgramUniform3f(program, k_origin_from_eye, origin_from_eye.x, origin_from_eye.y, origin_from_eye.z);
   glProgramUniform2f(program, k_body_cover, horizon_m_ * float(view.zoom()), k_light_between);
   glUseProgram(program);
   glBindVertexArray(vertex_array_.id());
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings_.frame, frame.buffer());
+  gl::bind_uniforms(bindings_.frame, frame.buffer());
   glDrawArrays(GL_TRIANGLES, 0, count_);
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings_.frame, 0);
+  gl::bind_uniforms(bindings_.frame, 0);
   glBindVertexArray(0);
   glUseProgram(0);
+}
+
+size_t MeshRenderer::gpu_bytes() const {
+  return gl::storage_bytes(vertices_);
 }
 
 }  // namespace sward

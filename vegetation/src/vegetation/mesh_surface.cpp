@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "terrain/usable_view.h"
 #include "vegetation/mesh_edges.h"
 
 namespace sward {
@@ -243,6 +244,7 @@ void MeshSurface::fixed_level_triangles(const View& view, float max_area_m2, con
                                         FixedTriangles& out) const {
   SWARD_ASSERT(max_area_m2 > 0.0f, "the largest area of a piece must be positive");
   out.clear();
+  if (!usable(view, "MeshSurface::fixed_level_triangles")) return;
   const Culling culling(view, options);
   for (size_t face = 0; face < faces(); ++face) {
     if (face % k_block == 0 && culling.culled(blocks_[face / k_block].low, blocks_[face / k_block].high)) {

@@ -22,6 +22,7 @@ class PlacementTextures {
   GLuint masks() const { return masks_.id(); }
   /// RGBA8, level 0: what classification reads.
   GLuint map() const { return distribution_ ? distribution_.id() : base_map_raw_; }
+  size_t gpu_bytes() const { return gl::storage_bytes(buffer_) + gl::storage_bytes(distribution_); }
 
  private:
   gl::Buffer buffer_;

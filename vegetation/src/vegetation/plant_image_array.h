@@ -20,6 +20,7 @@ class PlantImageArray {
   static PlantImageArray create(const Layer& layer);
   /// R8 array, k_plant_image_side a side, with mip levels; one empty image where the layer has none.
   GLuint texture() const { return texture_.id(); }
+  size_t gpu_bytes() const { return gl::storage_bytes(texture_); }
   /// What common_plant_image.glsl reads of a species: number of its detail or -1, strength, repeats along the plant,
   /// number of its cutout or -1.
   glm::vec4 of(const Species& species) const;

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "terrain/usable_view.h"
 #include "vegetation/exclusion_index.h"
 #include "vegetation/fertile_ground.h"
 #include "vegetation/triangle_record.h"
@@ -290,6 +291,7 @@ void seed_triangles(const Layer& layer, const View& view, const RecordMaker& mak
   out.surface_z_origin = triangles.surface_z();
   out.records.clear();
   out.source.clear();
+  if (!usable(view, "seed")) return;
   follow_exclusions(layer, triangles, exclusions, out);
   count_seeds(layer, view, map, triangles, out);
   if (out.n_max == 0.0f) return;

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "terrain/usable_view.h"
 #include "vegetation/vegetation_renderer_stages.h"
 
 namespace sward {
@@ -19,6 +20,7 @@ constexpr size_t k_query_frames = 3;
 }  // namespace
 
 struct VegetationRenderer::Impl {
+  gl::HomeContext home;
   Layer layer;
   gl::ShaderLibrary shaders;
   const WindTextures* wind = nullptr;
@@ -81,7 +83,8 @@ Expected<VegetationRenderer> VegetationRenderer::create(const Layer& layer, cons
   const SpeciesBlock species = make_species_block(layer);
   const size_t streams = classification->places().size();
   return VegetationRenderer(std::make_unique<Impl>(
-      Impl{.layer = layer,
+      Impl{.home = gl::HomeContext::of_current(),
+           .layer = layer,
            .shaders = shaders,
            .bindings = bindings,
            .classification = std::move(*classification),
@@ -114,7 +117,11 @@ Expected<void> VegetationRenderer::upload(const Seeding& seeding, const FixedTri
   Impl& self = *impl_;
   self.uploaded = false;
   self.classified = false;
+  if (!self.home.here("VegetationRenderer::upload"))
+    return fail("VegetationRenderer::upload: its OpenGL context is not current");
+  if (auto valid = view.validate(); !valid) return valid;
   SWARD_ASSERT(!self.on_clipmap, "a renderer for clipmaps takes seedings of the GPU");
+  if (self.on_clipmap) return fail("VegetationRenderer::upload: a renderer for clipmaps takes seedings of the GPU");
   if (auto written = self.buffers.write(seeding.records, triangles.nodes(), seeding.exclusions); !written)
     return written;
   self.triangles = TriangleTextures(self.buffers);
@@ -128,8 +135,10 @@ Expected<void> VegetationRenderer::upload(const Seeding& seeding, const FixedTri
 
 void VegetationRenderer::upload(const ClipmapSeeder& seeder, const gl::Clipmap& clipmap, const View& view) {
   Impl& self = *impl_;
+  if (!self.home.here("VegetationRenderer::upload") || !usable(view, "VegetationRenderer::upload")) return;
   SWARD_ASSERT(self.on_clipmap, "make a renderer for clipmaps with create_for_clipmap()");
   SWARD_ASSERT(seeder.seeded(), "seed before uploading");
+  if (!self.on_clipmap || !seeder.seeded()) return;
   self.triangles = {seeder.records(), seeder.exclusions(), {clipmap.block(), clipmap.heights()}};
   self.classification.reserve(seeder.most_clusters());
   self.view = view;
@@ -142,7 +151,9 @@ void VegetationRenderer::upload(const ClipmapSeeder& seeder, const gl::Clipmap& 
 void VegetationRenderer::classify(const gl::Frame& frame, const gl::GroundTextures& ground,
                                   GLuint restore_framebuffer) {
   Impl& self = *impl_;
+  if (!self.home.here("VegetationRenderer::classify")) return;
   SWARD_ASSERT(self.uploaded, "upload a seeding before classifying");
+  if (!self.uploaded) return;
   const MapGeometry map = classification_map(self.layer, {ground.map_size(), ground.texels()});
   self.placement.follow(self.layer, map, ground.base_map_raw());
   // The sun's azimuth reaches the shaders with the frame.
@@ -158,7 +169,7 @@ void VegetationRenderer::classify(const gl::Frame& frame, const gl::GroundTextur
 
 void VegetationRenderer::draw(const gl::Frame& frame, const gl::GroundTextures& ground) {
   Impl& self = *impl_;
-  if (!self.classified) return;
+  if (!self.home.here("VegetationRenderer::draw") || !self.classified) return;
   StageQueries& queries = self.queries[self.query_frame];
   const std::vector<uint32_t> fertile = self.growth.needs_counts() ? queries.fertile() : std::vector<uint32_t>();
   queries.begin_growth();
@@ -169,6 +180,8 @@ void VegetationRenderer::draw(const gl::Frame& frame, const gl::GroundTextures& 
 Expected<void> VegetationRenderer::set_wind(const WindTextures* wind) {
   Impl& self = *impl_;
   if (wind != nullptr) {
+    if (!self.home.here("VegetationRenderer::set_wind"))
+      return fail("VegetationRenderer::set_wind: its OpenGL context is not current");
     if (auto built = self.growth.build_wind(self.layer, self.shaders, self.bindings); !built) return built;
   }
   self.wind = wind;
@@ -195,6 +208,7 @@ Expected<void> VegetationRenderer::set_values(size_t species, const SeasonValues
 
 VegetationStats VegetationRenderer::stats(bool wait) {
   Impl& self = *impl_;
+  if (!self.home.here("VegetationRenderer::stats")) return self.last_stats;
   for (size_t age = 0; age < k_query_frames; ++age) {
     const StageQueries& queries = self.queries[(self.query_frame + k_query_frames - age) % k_query_frames];
     if (!wait && !queries.ready()) continue;
@@ -208,12 +222,20 @@ Expected<std::vector<Plant>> VegetationRenderer::read_back(const gl::Frame& fram
                                                            const View& view, const Seeding& seeding,
                                                            GLuint restore_framebuffer) {
   Impl& self = *impl_;
+  if (!self.home.here("VegetationRenderer::read_back"))
+    return fail("VegetationRenderer::read_back: its OpenGL context is not current");
   if (!self.classified) return fail("no plants to read back: nothing was classified since the last upload");
   if (!self.on_clipmap && seeding.clusters != self.clusters)
     return fail("the plants to read back come from another seeding");
   const std::vector<uint32_t> fertile = self.queries[self.query_frame].fertile();
   return self.read_back.run(self.inputs(frame, ground), self.classification, fertile, view, seeding,
                             restore_framebuffer);
+}
+
+size_t VegetationRenderer::gpu_bytes() const {
+  const Impl& self = *impl_;
+  return self.classification.gpu_bytes() + self.growth.gpu_bytes() + self.buffers.gpu_bytes() +
+         self.placement.gpu_bytes() + gl::storage_bytes(self.species);
 }
 
 }  // namespace sward

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "gl/bind.h"
+
 namespace sward {
 
 namespace {
@@ -109,40 +111,43 @@ void FeedbackPass::reserve(size_t clusters) {
   for (int stream = 0; stream < used_; ++stream) allocate(stream, capacity_);
 }
 
+size_t FeedbackPass::gpu_bytes() const {
+  size_t bytes = 0;
+  for (const gl::Buffer& stream : streams_) bytes += gl::storage_bytes(stream);
+  return bytes;
+}
+
 StageBindings::StageBindings(const gl::Bindings& bindings, GLuint frame, GLuint species,
                              std::initializer_list<Unit> units, TriangleTextures::Clipmap clipmap)
     : bindings_(bindings), clipmap_(clipmap.block != 0) {
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings.frame, frame);
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings.species, species);
+  gl::bind_uniforms(bindings.frame, frame);
+  gl::bind_uniforms(bindings.species, species);
   for (const Unit& unit : units) {
-    glBindTextureUnit(unit.unit, unit.texture);
-    glBindSampler(unit.unit, 0);
+    gl::bind_texture(unit.unit, unit.texture);
     units_[count_++] = unit.unit;
   }
   if (!clipmap_) return;
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings.clipmap, clipmap.block);
-  glBindTextureUnit(bindings.clipmap_heights, clipmap.heights);
-  glBindSampler(bindings.clipmap_heights, 0);
+  gl::bind_uniforms(bindings.clipmap, clipmap.block);
+  gl::bind_texture(bindings.clipmap_heights, clipmap.heights);
   units_[count_++] = bindings.clipmap_heights;
 }
 
 StageBindings::~StageBindings() {
   for (size_t i = 0; i < count_; ++i) glBindTextureUnit(units_[i], 0);
-  if (clipmap_) glBindBufferBase(GL_UNIFORM_BUFFER, bindings_.clipmap, 0);
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings_.species, 0);
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings_.frame, 0);
+  if (clipmap_) gl::bind_uniforms(bindings_.clipmap, 0);
+  gl::bind_uniforms(bindings_.species, 0);
+  gl::bind_uniforms(bindings_.frame, 0);
 }
 
 DisturbedBindings::DisturbedBindings(const gl::Bindings& bindings, const gl::DisturbedGround& disturbed)
     : bindings_(bindings) {
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings.disturbance, disturbed.block);
-  glBindTextureUnit(bindings.disturbance_map, disturbed.map);
-  glBindSampler(bindings.disturbance_map, 0);
+  gl::bind_uniforms(bindings.disturbance, disturbed.block);
+  gl::bind_texture(bindings.disturbance_map, disturbed.map);
 }
 
 DisturbedBindings::~DisturbedBindings() {
   glBindTextureUnit(bindings_.disturbance_map, 0);
-  glBindBufferBase(GL_UNIFORM_BUFFER, bindings_.disturbance, 0);
+  gl::bind_uniforms(bindings_.disturbance, 0);
 }
 
 }  // namespace sward

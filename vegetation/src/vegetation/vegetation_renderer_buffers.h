@@ -43,6 +43,7 @@ class TriangleBuffers {
   GLuint records() const { return records_.id(); }
   GLuint surface() const { return surface_.id(); }
   GLuint exclusions() const { return exclusions_.id(); }
+  size_t gpu_bytes() const { return gl::storage_bytes(buffer_); }
 
  private:
   void reserve(size_t region_bytes);
@@ -90,6 +91,7 @@ class FeedbackPass {
   void reserve(size_t clusters);
   GLuint id() const { return feedback_.id(); }
   GLuint stream(int index) const { return streams_[size_t(index)].id(); }
+  size_t gpu_bytes() const;
 
  private:
   void allocate(int stream, size_t clusters);

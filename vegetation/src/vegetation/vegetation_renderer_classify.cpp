@@ -136,4 +136,10 @@ void ClassificationStage::run_pass(int pass, const ClusterDraws& draws, StageQue
   glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, 0);
 }
 
+size_t ClassificationStage::gpu_bytes() const {
+  size_t bytes = 0;
+  for (const FeedbackPass& pass : passes_) bytes += pass.gpu_bytes();
+  return bytes;
+}
+
 }  // namespace sward

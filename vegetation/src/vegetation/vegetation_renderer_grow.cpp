@@ -5,6 +5,7 @@
 #include <sward/vegetation/blade_shape.h>
 #include <algorithm>
 
+#include "gl/bind.h"
 #include "vegetation/plant_mesh.h"
 #include "vegetation/vegetation_renderer_stages.h"
 #include "vegetation/wind_bindings.h"
@@ -226,7 +227,7 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
                              {units.detail_slope, inputs.ground.detail_slope()}},
                             inputs.triangles.clipmap());
   const DisturbedBindings disturbed(units, inputs.ground.disturbed());
-  glBindBufferBase(GL_UNIFORM_BUFFER, units.materials, inputs.ground.materials());
+  gl::bind_uniforms(units.materials, inputs.ground.materials());
   glPatchParameteri(GL_PATCH_VERTICES, 1);
   glBindVertexArray(vertex_array_.id());
   for (size_t i = 0; i < classified.places().size(); ++i) {
@@ -245,9 +246,16 @@ void GrowthStage::run(const StageInputs& inputs, const ClassificationStage& clas
     }
   }
   set_stream(vertex_array_, 0);
-  glBindBufferBase(GL_UNIFORM_BUFFER, units.materials, 0);
+  gl::bind_uniforms(units.materials, 0);
   glBindVertexArray(0);
   glUseProgram(0);
+}
+
+size_t GrowthStage::gpu_bytes() const {
+  size_t bytes =
+      gl::storage_bytes(blade_shape_buffer_) + gl::storage_bytes(wind_shape_buffer_) + image_array_.gpu_bytes();
+  for (const gl::Buffer& mesh : mesh_buffers_) bytes += gl::storage_bytes(mesh);
+  return bytes;
 }
 
 }  // namespace sward

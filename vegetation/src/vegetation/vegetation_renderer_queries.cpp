@@ -9,12 +9,15 @@ namespace {
 
 /// Blocks.
 uint64_t result_of(const gl::Query& query) {
+  // Into memory, not into a buffer that the host has bound for results.
+  glBindBuffer(GL_QUERY_BUFFER, 0);
   GLuint64 result = 0;
   glGetQueryObjectui64v(query.id(), GL_QUERY_RESULT, &result);
   return result;
 }
 
 bool available(const gl::Query& query) {
+  glBindBuffer(GL_QUERY_BUFFER, 0);
   GLint result = GL_FALSE;
   glGetQueryObjectiv(query.id(), GL_QUERY_RESULT_AVAILABLE, &result);
   return result == GL_TRUE;

@@ -84,6 +84,7 @@ class ClassificationStage {
   void run(const StageInputs& inputs, const ClusterDraws& draws, StageQueries& queries, GLuint restore_framebuffer);
   std::span<const StreamPlace> places() const { return places_; }
   const FeedbackPass& pass(int index) const { return passes_[size_t(index)]; }
+  size_t gpu_bytes() const;
 
  private:
   void run_pass(int pass, const ClusterDraws& draws, StageQueries& queries);
@@ -111,6 +112,7 @@ class GrowthStage {
            const WindTextures* wind);
   /// The programs and the table for plants that move, once; `layer`, `shaders` and `bindings` as created with.
   Expected<void> build_wind(const Layer& layer, const gl::ShaderLibrary& shaders, const gl::Bindings& bindings);
+  size_t gpu_bytes() const;
 
  private:
   /// A draw of a species' stream: a kind may take several.

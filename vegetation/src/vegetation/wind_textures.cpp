@@ -3,6 +3,8 @@
 
 #include <sward/vegetation/wind_textures.h>
 
+#include <cmath>
+
 #include "vegetation/wind_maps.h"
 #include "vegetation/wind_state.h"
 
@@ -60,6 +62,7 @@ Expected<WindTextures> WindTextures::create() {
   if (auto context = gl::require_context(); !context) return tl::unexpected(context.error());
   const gl::DefaultUnpack unpack;
   WindTextures textures;
+  textures.home_ = gl::HomeContext::of_current();
   textures.maps_ = make_array(GL_RGBA8, WindMaps::k_side);
   for (int layer = 0; layer < 2; ++layer)
     glTextureSubImage3D(textures.maps_.id(), 0, 0, 0, layer, WindMaps::k_side, WindMaps::k_side, 1, GL_RGBA,
@@ -76,6 +79,9 @@ Expected<WindTextures> WindTextures::create() {
 }
 
 WindTextures::Upload WindTextures::upload(const Wind& wind, glm::dvec3 eye) {
+  if (!home_.shared_here("WindTextures::upload")) return {};
+  SWARD_ASSERT(std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z),
+               "WindTextures::upload: the eye has a number that is NaN or infinite");
   const WindState& state = wind.state();
   const bool another = wind_ != state.identity;
   const bool repaint = state.painted && (another || painting_ != state.painting);
@@ -98,6 +104,10 @@ WindTextures::Upload WindTextures::upload(const Wind& wind, glm::dvec3 eye) {
   stamps_ = stamps;
   painting_ = state.painting;
   return upload;
+}
+
+size_t WindTextures::gpu_bytes() const {
+  return gl::storage_bytes(block_) + gl::storage_bytes(maps_) + gl::storage_bytes(grid_) + gl::storage_bytes(painted_);
 }
 
 }  // namespace sward

@@ -41,6 +41,8 @@ class SWARD_API Clipmap {
   /// ClipmapRings::changed().
   void changed(const LatticeBox& box) { rings_.changed(box); }
 
+  /// Bytes of GPU memory that it holds (gl::storage_bytes). Asks GL: not for every frame. Leaves all state as it was.
+  size_t gpu_bytes() const;
   const ClipmapRings& rings() const { return rings_; }
   GLuint heights() const { return heights_.id(); }  ///< R32F 2D array, one layer a ring, for texelFetch.
   GLuint relief() const { return relief_.id(); }    ///< RG16F 2D array, layers as far as rings have relief.
@@ -50,6 +52,7 @@ class SWARD_API Clipmap {
   explicit Clipmap(ClipmapRings rings) : rings_(std::move(rings)) {}
   void send(const ClipmapRings::Change& change, Upload& upload);
 
+  HomeContext home_;
   ClipmapRings rings_;
   Texture heights_, relief_;
   Buffer block_;

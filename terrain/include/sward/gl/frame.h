@@ -52,13 +52,17 @@ class SWARD_API Frame {
  public:
   static Expected<Frame> create(const Bindings& bindings = {});
   /// Fills the buffer for a view. `time_s` drives what moves; `samples` of the target (1: no multisampling) chooses
-  /// between alpha-to-coverage and hashed alpha. Binds nothing.
+  /// between alpha-to-coverage and hashed alpha. Asserts that the view validates, that `time_s` is finite and `samples`
+  /// at least 1. Binds nothing.
   void upload(const View& view, const Lighting& lighting, double time_s, int samples);
   GLuint buffer() const { return buffer_.id(); }
   const Bindings& bindings() const { return bindings_; }
   int samples() const { return samples_; }
+  /// Bytes of GPU memory that it holds (gl::storage_bytes). Asks GL: not for every frame. Leaves all state as it was.
+  size_t gpu_bytes() const;
 
  private:
+  HomeContext home_;
   Buffer buffer_;
   Bindings bindings_;
   int samples_ = 1;

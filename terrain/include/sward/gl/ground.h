@@ -46,6 +46,8 @@ class SWARD_API GroundTextures {
     return disturbed_.block != 0 ? disturbed_ : DisturbedGround{undisturbed_.id(), untouched_map_.id()};
   }
 
+  /// Bytes of GPU memory that it holds (gl::storage_bytes). Asks GL: not for every frame. Leaves all state as it was.
+  size_t gpu_bytes() const;
   GLuint materials() const { return materials_.id(); }        ///< SwardMaterials, a uniform buffer
   GLuint detail() const { return detail_.id(); }              ///< RGBA8 array, trilinear, repeats
   GLuint detail_slope() const { return detail_slope_.id(); }  ///< RG8_SNORM array, likewise

@@ -45,6 +45,8 @@ class SWARD_API SlopeMap {
   /// Reads what has changed of the field that it was made from, at once.
   void update(const HeightField& field, const LatticeBox& changed);
 
+  /// Bytes of GPU memory that it holds (gl::storage_bytes). Asks GL: not for every frame. Leaves all state as it was.
+  size_t gpu_bytes() const;
   GLuint texture() const;  ///< RG16F 2D array, trilinear.
   int layers() const;
   /// World corner (west, south) and metres of the rectangle that one period of a layer's texture covers.

@@ -18,6 +18,8 @@ class SWARD_API SlotBuffer {
   explicit SlotBuffer(size_t slot_bytes) : slot_bytes_(slot_bytes) {}
 
   GLuint id() const { return buffer_.id(); }
+  /// Bytes of GPU memory that it holds (gl::storage_bytes). Asks GL: not for every frame. Leaves all state as it was.
+  size_t gpu_bytes() const;
   /// Makes room for `slots`; true when that took a new buffer, whose contents are undefined.
   bool fit(size_t slots);
   /// Writes the first `slots` slots; the bytes written.

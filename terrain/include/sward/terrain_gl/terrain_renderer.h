@@ -14,6 +14,7 @@ namespace sward {
 /// Draws a RoamMesh: base map, sun, ambient light, haze. GL thread.
 class SWARD_API TerrainRenderer {
  public:
+  /// Fails on a shader's error and on a GL below 4.5. Leaves all state as it was.
   static Expected<TerrainRenderer> create(const gl::ShaderLibrary& shaders, const gl::Bindings& bindings = {});
 
   /// Copies what changed in the mesh since its last update into the GPU's buffers. Call once after each update: after
@@ -25,15 +26,20 @@ class SWARD_API TerrainRenderer {
   /// Binds: program, vertex array, uniform buffers bindings.frame, bindings.materials,
   /// bindings.disturbance, textures bindings.base_map, bindings.slope_map, bindings.detail, bindings.detail_slope,
   /// bindings.disturbance_map.
-  /// Sets: nothing else; the host chooses depth test (GL_LESS, GL_LEQUAL or reversed), culling, blending, masks.
-  /// Leaves: program 0, vertex array 0, those texture units and uniform buffer bindings 0.
-  /// Padding around the data is discarded. `view` must be the one that the frame was filled with.
+  /// Sets: nothing else; the host chooses depth test (GL_LESS, GL_LEQUAL or reversed), culling, blending, masks, and
+  /// has GL_PRIMITIVE_RESTART off.
+  /// Leaves: program 0, vertex array 0, those texture units, their samplers and uniform buffer bindings 0.
+  /// Padding around the data is discarded. `view` must be the one that the frame was filled with, and valid (asserted).
+  /// Draws nothing before the first upload.
   void draw(const View& view, const gl::Frame& frame, const gl::GroundTextures& ground);
 
+  /// Bytes of GPU memory that it holds (gl::storage_bytes). Asks GL: not for every frame. Leaves all state as it was.
+  size_t gpu_bytes() const;
   /// Triangles of the last upload.
   uint32_t triangles() const { return index_count_ / 3; }
 
  private:
+  gl::HomeContext home_;
   gl::Bindings bindings_;
   gl::Program program_;
   gl::VertexArray vertex_array_;

@@ -39,11 +39,12 @@ class SWARD_API ClipmapSeeder {
   const Layer& layer() const;
 
   /// Seeds for a view, which the clipmap has followed. Nothing is read back: records, bins and draws stay in buffers,
-  /// which VegetationRenderer::upload(const ClipmapSeeder&, ...) takes. Fails, seeding nothing, where the horizon holds
-  /// too many triangles or the device's buffer textures too few records. `exclusions` as for seed().
+  /// which VegetationRenderer::upload(const ClipmapSeeder&, ...) takes. Fails, seeding nothing, where the view is not
+  /// valid, the horizon holds too many triangles or the device's buffer textures too few records. `exclusions` as for
+  /// seed().
   /// Binds: program, uniform buffers bindings.clipmap, bindings.seeding, texture bindings.clipmap_heights (without
   /// sampler), the five storage buffers bindings.seed_*.
-  /// Leaves: program 0, those bindings, the general uniform and storage buffer bindings and that sampler 0.
+  /// Leaves: program 0, those bindings and that sampler 0.
   /// Cost: five dispatches over all candidates within the horizon around the eye.
   Expected<void> seed(const View& view, const gl::Clipmap& clipmap, const Exclusions* exclusions = nullptr);
 
@@ -60,6 +61,9 @@ class SWARD_API ClipmapSeeder {
   /// The last seed()'s triangles and records, as seed() would have made them: for tests, `sward plants` and the CPU
   /// twin. Seeding::source counts up; triangles carry the drawn surface below them. Slow.
   void read_back(const View& view, const gl::Clipmap& clipmap, FixedTriangles& triangles, Seeding& seeding) const;
+
+  /// Bytes of GPU memory that it holds (gl::storage_bytes). Asks GL: not for every frame. Leaves all state as it was.
+  size_t gpu_bytes() const;
 
   // For VegetationRenderer.
   GLuint records() const;        ///< RGBA32UI buffer texture.

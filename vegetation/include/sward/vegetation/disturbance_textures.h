@@ -39,6 +39,9 @@ class SWARD_API DisturbanceTextures {
   /// For GroundTextures::set_disturbed(): terrain and all plants then follow. Stays the same object for life.
   gl::DisturbedGround ground() const { return {block_.id(), map_.id()}; }
 
+  /// Bytes of GPU memory that it holds (gl::storage_bytes). Asks GL: not for every frame. Leaves all state as it was.
+  size_t gpu_bytes() const;
+
   /// What was last written into the block; its first number is 0 while nothing is disturbed around the eye.
   const gl::DisturbanceBlock& block() const { return values_; }
 
@@ -56,6 +59,7 @@ class SWARD_API DisturbanceTextures {
   void write_slot(const DisturbanceTiles& tiles, int level, glm::ivec2 place, Upload& upload);
   void write_block(const DisturbanceTiles& tiles, glm::dvec2 eye);
 
+  gl::HomeContext home_;
   gl::Texture map_;
   gl::Buffer block_;
   gl::DisturbanceBlock values_;

@@ -24,9 +24,13 @@ class SWARD_API MeshRenderer {
   /// bodies. Binds: program, vertex array, uniform buffer frame. Leaves all three 0.
   void draw(const View& view, const gl::Frame& frame);
 
+  /// Bytes of GPU memory that it holds (gl::storage_bytes). Asks GL: not for every frame. Leaves all state as it was.
+  size_t gpu_bytes() const;
+
  private:
   MeshRenderer() = default;
 
+  gl::HomeContext home_;
   gl::Program program_;
   gl::Buffer vertices_;
   gl::VertexArray vertex_array_;

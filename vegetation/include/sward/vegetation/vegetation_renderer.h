@@ -37,7 +37,7 @@ struct VegetationStats {
 class SWARD_API VegetationRenderer {
  public:
   /// Compiles classification and one growth program a plant kind in use. Fails on a layer that does not validate, on a
-  /// shader's error (with the driver's log) and on a GL below 4.5.
+  /// shader's error (with the driver's log) and on a GL below 4.5. Leaves all state as it was.
   static Expected<VegetationRenderer> create(const Layer& layer, const gl::ShaderLibrary& shaders,
                                              const gl::Bindings& bindings = {});
   /// The same for layers that are seeded on the GPU over a clipmap: plants stand on its drawn surface.
@@ -66,8 +66,8 @@ class SWARD_API VegetationRenderer {
 
   /// One upload of a frame's seeding and surface, for the view that they were made for; grows buffers when a frame
   /// needs more than any before. Fails, keeping nothing of the frame, when the device's buffer textures cannot hold it
-  /// (GL_MAX_TEXTURE_BUFFER_SIZE; records take 6 texels, surface nodes 1). Binds nothing. The arguments may go away
-  /// afterwards.
+  /// (GL_MAX_TEXTURE_BUFFER_SIZE; records take 6 texels, surface nodes 1) and when the view is not valid. Binds nothing.
+  /// The arguments may go away afterwards.
   Expected<void> upload(const Seeding& seeding, const FixedTriangles& triangles, const View& view);
 
   /// What takes the other upload()'s place in a renderer for clipmaps: nothing is copied, records and draws stay in the
@@ -81,7 +81,8 @@ class SWARD_API VegetationRenderer {
   /// buffers frame and species, texture units base_map_raw, triangles, surface, exclusions, placement; enables
   /// GL_RASTERIZER_DISCARD. Leaves: program 0, vertex array 0, feedback 0, those units (their samplers too) and
   /// bindings 0, discard disabled, and `restore_framebuffer` bound for drawing. The host must have no query of
-  /// feedback, generated primitives or fragment shader runs active, here and in draw.
+  /// feedback, generated primitives or fragment shader runs active, here and in draw, no transform feedback and no
+  /// conditional rendering. Asserts that something was uploaded.
   void classify(const gl::Frame& frame, const gl::GroundTextures& ground, GLuint restore_framebuffer);
 
   /// Grows and draws every species, shadows included. Binds: programs, vertex array, uniform buffers frame and species,
@@ -90,17 +91,21 @@ class SWARD_API VegetationRenderer {
   /// touched the ground: GroundTextures::set_disturbed()); sets GL_PATCH_VERTICES 1. With a wind (set_wind) also the
   /// uniform buffer wind and units wind_maps, wind_grid, wind_painted. Leaves: program 0,
   /// vertex array 0, those units (their samplers too) and bindings 0, patch vertices 1. The host chooses depth test,
-  /// depth mask, culling (must be off), blending (must be off). Thin plants cover some of a pixel's samples: the
-  /// shaders write the mask (frame.samples() must be the target's), alpha is 1. Draws nothing before the first
-  /// classify.
+  /// depth mask, culling (must be off), blending (must be off), and leaves GL_PROVOKING_VERTEX at GL's own, the last.
+  /// Where the driver is one that draws on the CPU, GL_QUERY_BUFFER is left 0 too. Thin plants cover some of a pixel's
+  /// samples: the shaders write the mask (frame.samples() must be the target's), alpha is 1. Draws nothing before the
+  /// first classify.
   void draw(const gl::Frame& frame, const gl::GroundTextures& ground);
 
-  /// Results of the queries of the last classify and draw; `wait` blocks until they are there.
+  /// Results of the queries of the last classify and draw; `wait` blocks until they are there. Leaves GL_QUERY_BUFFER 0.
   VegetationStats stats(bool wait);
 
+  /// Bytes of GPU memory that it holds (gl::storage_bytes). Asks GL: not for every frame. Leaves all state as it was.
+  size_t gpu_bytes() const;
+
   /// The plants of the last classify as the GPU grows them, read back: for tests and `sward plants --gpu`. Slow. Needs
-  /// the seeding that was uploaded, to name triangles; same binding contract as classify, and disturbance_map and the
-  /// uniform buffer disturbance, left 0.
+  /// the seeding that was uploaded, to name triangles; same binding contract as classify, and disturbance_map, the
+  /// uniform buffer disturbance and GL_QUERY_BUFFER, left 0.
   Expected<std::vector<Plant>> read_back(const gl::Frame& frame, const gl::GroundTextures& ground, const View& view,
                                          const Seeding& seeding, GLuint restore_framebuffer);
 

@@ -28,6 +28,8 @@ class SWARD_API WindTextures {
   /// nothing; leaves all state as it was and asks GL for pixel-store state only when it has texels to send.
   Upload upload(const Wind& wind, glm::dvec3 eye);
 
+  /// Bytes of GPU memory that it holds (gl::storage_bytes). Asks GL: not for every frame. Leaves all state as it was.
+  size_t gpu_bytes() const;
   GLuint block() const { return block_.id(); }      ///< Uniform buffer of SwardWind.
   GLuint maps() const { return maps_.id(); }        ///< RGBA8 2D array: gusts, noise.
   GLuint grid() const { return grid_.id(); }        ///< RG16F 2D array: fine, coarse; m/s.
@@ -36,6 +38,7 @@ class SWARD_API WindTextures {
  private:
   WindTextures() = default;
 
+  gl::HomeContext home_;
   gl::Buffer block_;
   gl::Texture maps_, grid_, painted_;
   // Of what was uploaded last.
