@@ -68,6 +68,8 @@ class Host {
   Host(host::EglContext& first, host::EglContext& second) : contexts_{&first, &second} {
     // Compiling a thousand times would test the compiler.
     shaders_.set_binaries(std::make_shared<gl::ProgramBinaries>());
+    world_.layer.horizon_m = 6;
+    world_.layer.density = 4;
   }
 
   void live_once() {

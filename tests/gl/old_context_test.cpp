@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 // Hosts whose OpenGL is too old, or none: every create() says so.
+// epoxy first: it and EGL bring the same types.
+#include <epoxy/gl.h>
+
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
