@@ -122,7 +122,8 @@ TEST_F(Conventions, ReversedInfiniteDepthGivesThePlainPicture) {
   glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
 }
 
-// Shaders know pixels by their distances alone: bit-equal.
+// Shaders know pixels by their distances alone; what is interpolated is rounded otherwise elsewhere in the target, and
+// coverage that lies on the edge may fall to the other side.
 TEST_F(Conventions, AnOffsetViewportGivesThePlainPictureThere) {
   const ContractWorld world;
   ContractScene scene(world);
@@ -134,7 +135,9 @@ TEST_F(Conventions, AnOffsetViewportGivesThePlainPictureThere) {
   target.begin(1, GL_LESS);
   glViewport(corner.x, corner.y, k_size.x, k_size.y);
   draw(scene, target);
-  EXPECT_EQ(target.read(corner), plain);
+  const Difference d = compare(plain, target.read(corner));
+  EXPECT_LT(d.share, 0.01);
+  EXPECT_LT(d.mean, 0.001);
   const std::vector<glm::vec3> below = target.read({0, 0}, {target.size.x, corner.y});
   for (const glm::vec3& pixel : below) ASSERT_EQ(pixel, glm::vec3(0)) << "nothing outside of the viewport";
 }

@@ -18,7 +18,7 @@ struct Meadow {
   HeightField field;
   Bounds bounds = Bounds::create(field, 1);
   RoamMesh mesh = RoamMesh::create(bounds, {.max_triangles = 500}).value();
-  ColorMap colors{1, 1, {{90, 130, 50, 255}}, field.min_corner(), field.max_corner() - field.min_corner(), {}, {}};
+  ColorMap colors{1, 1, {{90, 130, 50, 255}}, field.min_corner(), field.max_corner() - field.min_corner()};
   Layer layer;
   gl::Frame frame = gl::Frame::create().value();
   gl::GroundTextures ground = gl::GroundTextures::create(field, colors).value();
