@@ -13,7 +13,7 @@ namespace sward::gl {
 
 /// What is current on this thread, as EGL or GLX name it; null: no context. No GL call, some nanoseconds. A process that
 /// draws through neither of them counts as having one everywhere, always the same.
-const void* current_context();
+SWARD_API const void* current_context();
 
 /// The one owner of a GL object. Move-only; deletes on destruction where the object's context is current, or, for kinds
 /// that contexts can share, where any is. Without one nothing is called: the object goes with its context.
@@ -93,9 +93,10 @@ using Feedback = Handle<FeedbackTraits>;
 using Framebuffer = Handle<FramebufferTraits>;
 
 /// Bytes of an object's storage as its format says, without what a driver adds: padding, compression, copies. A view or
-/// a buffer texture has none of its own. 0 for none and without a context. Asks GL: not for every frame. Leaves all state as it was.
-size_t storage_bytes(const Buffer& buffer);
-size_t storage_bytes(const Texture& texture);
+/// a buffer texture has none of its own. 0 for none and without a context. Asks GL: not for every frame. Leaves all
+/// state as it was.
+SWARD_API size_t storage_bytes(const Buffer& buffer);
+SWARD_API size_t storage_bytes(const Texture& texture);
 
 // All by direct state access; nothing stays bound.
 SWARD_API Buffer create_buffer();
@@ -109,7 +110,7 @@ SWARD_API Framebuffer create_framebuffer();
 
 /// The context that an object of sward's was made in. Every entry point asks it before the first GL call, because
 /// without a context GL calls abort the process or do nothing, and in a foreign one they reach the host's objects.
-class HomeContext {
+class SWARD_API HomeContext {
  public:
   /// Of an object that create() has not made.
   HomeContext() = default;
