@@ -17,7 +17,7 @@ function(sward_install_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "SET;RUNTIME;DESCRIPTION;FOLDER" "REQUIRES;REQUIRES_PRIVATE;LIBS_PRIVATE")
   install(TARGETS sward_${name} EXPORT sward-${arg_SET}-static ARCHIVE COMPONENT development)
   if(SWARD_SHARED)
-    install(TARGETS sward_${name}_shared EXPORT sward-${arg_SET} LIBRARY COMPONENT ${arg_RUNTIME}
+    install(TARGETS sward_${name}_shared EXPORT sward-${arg_SET}-shared LIBRARY COMPONENT ${arg_RUNTIME}
       NAMELINK_COMPONENT development)
   endif()
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${arg_FOLDER}/include/sward/${name}" COMPONENT development
@@ -31,11 +31,11 @@ function(sward_install_library name)
     COMPONENT development)
 endfunction()
 
-# The targets' files of a set of libraries.
+# The targets' files of a set of libraries. CMake's own names end in an asterisk: none may be the beginning of another.
 function(sward_install_set set)
   install(EXPORT sward-${set}-static NAMESPACE sward:: DESTINATION "${sward_cmake_dir}" COMPONENT development)
   if(SWARD_SHARED)
-    install(EXPORT sward-${set} NAMESPACE sward:: DESTINATION "${sward_cmake_dir}" COMPONENT development)
+    install(EXPORT sward-${set}-shared NAMESPACE sward:: DESTINATION "${sward_cmake_dir}" COMPONENT development)
   endif()
 endfunction()
 

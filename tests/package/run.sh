@@ -30,7 +30,7 @@ if inside dpkg-query -W -f='${Package}\n' | grep -E 'openimageio|openmesh|glfw';
 fi
 inside sh -c 'apt-get install -q -y --no-install-recommends /packages/*.deb g++ cmake make pkg-config \
   libegl1 libgl1-mesa-dri'
-inside env PICTURE=/packages/hello.ppm SIZE=960x540 bash /packages/installed.sh /usr
+inside env PICTURE=/packages/hello.ppm SIZE=960x540 ALL=1 bash /packages/installed.sh /usr
 inside sward --version
 inside sh -c 'cd /packages && LIBGL_ALWAYS_SOFTWARE=1 sward render /usr/share/sward/scenes/flowers.toml -o flowers.png'
 cp "$root/packages/hello.ppm" "$here/../../build/hello.ppm"
