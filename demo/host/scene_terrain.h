@@ -26,6 +26,8 @@ class SceneTerrain {
 
   const Surface& surface() const { return *surface_; }
   const ColorMap& colors() const { return colors_; }
+  /// For rays and lines of sight (TerrainQueries); null over a world, which has none.
+  const Bounds* bounds() const { return field_ ? &field_->bounds : nullptr; }
   /// What has to be followed by views (WorldStream); null where all of the ground is there from the start.
   World* world() const { return world_.get(); }
   /// What a layer with Layer::on_mesh covers; null for others.

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Reads scenes for OpenSceneGraph: `osgviewer place.sward` reads the TOML file of that name, `osgviewer
-// place.toml.sward` the file place.toml, and a built-in scene (`osgviewer meadow.sward`) needs no file.
+// place.toml.sward` the file place.toml, and a built-in scene (`osgviewer meadow.sward`) needs no file. Options, as in
+// `osgviewer -O "noSky noHome"`:
+//   noSky   without sward's sky
+//   noHome  leaves the home of the viewer's manipulators alone
 
 #include "sward_drawable.h"
 
@@ -11,8 +14,11 @@
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
 #include <osgDB/Registry>
+#include <sstream>
+#include <string_view>
 
 #include "host/scene_maps.h"
+#include "scene_home.h"
 
 namespace sward::osg_host {
 
@@ -27,11 +33,34 @@ Expected<Scene> read_scene(const std::string& name, const osgDB::Options* option
   return builtin_scene(bare);
 }
 
+bool has_option(const osgDB::Options* options, std::string_view wanted) {
+  std::istringstream words(options != nullptr ? options->getOptionString() : std::string());
+  for (std::string word; words >> word;)
+    if (word == wanted) return true;
+  return false;
+}
+
+Expected<osg::ref_ptr<SwardDrawable>> read_drawable(const std::string& name, const osgDB::Options* options) {
+  auto scene = read_scene(name, options);
+  if (!scene) return tl::unexpected(scene.error());
+  if (auto loaded = host::load_maps(*scene); !loaded) return tl::unexpected(loaded.error());
+  auto terrain = host::load_terrain(*scene, true);
+  if (!terrain) return tl::unexpected(terrain.error());
+  for (const std::string& warning : (*terrain)->warnings()) OSG_WARN << "sward: warning: " << warning << std::endl;
+  DrawableOptions drawing;
+  drawing.sky = !has_option(options, "noSky");
+  return osg::ref_ptr<SwardDrawable>(new SwardDrawable(std::move(*scene), std::move(*terrain), drawing));
+}
+
 }  // namespace
 
 class ReaderWriterSward : public osgDB::ReaderWriter {
  public:
-  ReaderWriterSward() { supportsExtension("sward", "sward scene: terrain and vegetation"); }
+  ReaderWriterSward() {
+    supportsExtension("sward", "sward scene: terrain and vegetation");
+    supportsOption("noSky", "Leave out sward's sky");
+    supportsOption("noHome", "Leave the home of the viewer's manipulators alone");
+  }
   const char* className() const override { return "sward scene reader"; }
 
   ReadResult readObject(const std::string& name, const osgDB::Options* options) const override {
@@ -40,15 +69,12 @@ class ReaderWriterSward : public osgDB::ReaderWriter {
 
   ReadResult readNode(const std::string& name, const osgDB::Options* options) const override {
     if (!acceptsExtension(osgDB::getLowerCaseFileExtension(name))) return ReadResult::FILE_NOT_HANDLED;
-    auto scene = read_scene(name, options);
-    if (!scene) return failed(scene.error());
-    if (auto loaded = host::load_maps(*scene); !loaded) return failed(loaded.error());
-    auto terrain = host::load_terrain(*scene, true);
-    if (!terrain) return failed(terrain.error());
+    auto drawable = read_drawable(name, options);
+    if (!drawable) return failed(drawable.error());
     osg::ref_ptr<osg::Group> group(new osg::Group);
-    group->setName(scene->name);
-    group->addChild(new SwardDrawable(std::move(*scene), std::move(*terrain)));
-    group->addCullCallback(new NearGround);
+    group->setName((*drawable)->scene().name);
+    group->addChild(*drawable);
+    if (!has_option(options, "noHome")) group->addEventCallback(new SceneHome(**drawable));
     return group.get();
   }
 
