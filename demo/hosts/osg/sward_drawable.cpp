@@ -69,11 +69,12 @@ Expected<void> draw_scene(const osg::State& state, const Scene& scene, host::Sce
   return {};
 }
 
-// Programs, vertex arrays, textures and uniform buffers are unbound now. osg::State binds what it remembers again.
+// Programs, vertex arrays, textures and uniform buffers are unbound now: osg::State shall bind again what it remembers.
+// Modes are as it set them. (State::dirtyAllModes() would not do, for it only inverts what State remembers: a mode that
+// the next drawable changes would be taken for one that is set already.)
 void tell_state(osg::State& state) {
   glPatchParameteri(GL_PATCH_VERTICES, 3);  // GL's default; sward leaves 1.
   state.setLastAppliedProgramObject(nullptr);
-  state.dirtyAllModes();
   state.dirtyAllAttributes();
   state.dirtyAllVertexArrays();
 }
