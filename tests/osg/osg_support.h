@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <osg/Group>
 #include <osg/Image>
@@ -48,6 +49,21 @@ struct Capture : osg::Camera::DrawCallback {
   osg::ref_ptr<osg::Image> image{new osg::Image};
   mutable std::vector<GLenum> errors;
 };
+
+/// Empty where two pictures are the same, byte for byte.
+inline std::string difference(const std::vector<unsigned char>& a, const std::vector<unsigned char>& b) {
+  if (a.size() != b.size()) return "sizes differ";
+  size_t count = 0, first = 0;
+  int most = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    if (a[i] == b[i]) continue;
+    if (count++ == 0) first = i / 3;
+    most = std::max(most, std::abs(int(a[i]) - int(b[i])));
+  }
+  if (count == 0) return {};
+  return std::to_string(count) + " bytes differ, by " + std::to_string(most) + " at most, the first at x " +
+         std::to_string(first % k_width) + ", y " + std::to_string(first / k_width);
+}
 
 /// How much neighbours on a row differ, on average: plants are rough, bare ground from above is not.
 inline double roughness(const Capture& capture, int rows = k_height) {

@@ -69,13 +69,25 @@ Expected<void> draw_scene(const osg::State& state, const Scene& scene, host::Sce
   return {};
 }
 
-// Programs, vertex arrays, textures and uniform buffers are unbound now: osg::State shall bind again what it remembers.
-// Modes are as it set them. (State::dirtyAllModes() would not do, for it only inverts what State remembers: a mode that
-// the next drawable changes would be taken for one that is set already.)
+// Binding points of gl::Bindings: its numbers count from 0 to these.
+constexpr unsigned k_texture_units = 18, k_uniform_buffers = 8, k_storage_buffers = 5;
+
+// What sward leaves unbound, osg::State shall bind again where it remembers something else. Only that: after
+// State::dirtyAllAttributes() lights would be placed again, below other matrices, and State::dirtyAllModes() inverts
+// what State remembers, so that a mode which the next drawable changes is taken for one that is set already.
 void tell_state(osg::State& state) {
+  using Type = osg::StateAttribute;
   glPatchParameteri(GL_PATCH_VERTICES, 3);  // GL's default; sward leaves 1.
+  state.haveAppliedAttribute(Type::PATCH_PARAMETER);
+  state.haveAppliedAttribute(Type::PROGRAM);
   state.setLastAppliedProgramObject(nullptr);
-  state.dirtyAllAttributes();
+  for (unsigned unit = 0; unit < k_texture_units; ++unit) {
+    state.haveAppliedTextureAttribute(unit, Type::TEXTURE);
+    state.haveAppliedTextureAttribute(unit, Type::SAMPLER);
+  }
+  for (unsigned i = 0; i < k_uniform_buffers; ++i) state.haveAppliedAttribute(Type::UNIFORMBUFFERBINDING, i);
+  for (unsigned i = 0; i < k_storage_buffers; ++i) state.haveAppliedAttribute(Type::SHADERSTORAGEBUFFERBINDING, i);
+  state.haveAppliedAttribute(Type::INDIRECTDRAWBUFFERBINDING);
   state.dirtyAllVertexArrays();
 }
 
@@ -107,6 +119,7 @@ void SwardDrawable::drawImplementation(osg::RenderInfo& info) const {
   osg::State& state = *info.getState();
   if (!pool_) return;
   host::SceneRenderer* renderer = pool_->renderer_for(state, info.getCurrentCamera());
+  state.unbindVertexArrayObject();
   if (renderer != nullptr)
     if (auto drawn = draw_scene(state, scene(), *renderer); !drawn) pool_->tell(drawn.error());
   tell_state(state);
