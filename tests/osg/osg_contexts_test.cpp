@@ -205,7 +205,8 @@ TEST_F(Beside, ModelsLookTheSameWithAndWithoutTheScene) {
   root_->addChild(node_);
   for (const int bin : {-5, 5}) {
     node_->getOrCreateStateSet()->setRenderBinDetails(bin, "RenderBin");
-    for (int frame = 0; frame < 3; ++frame) EXPECT_EQ(difference(picture(1), alone), "") << "bin " << bin << " frame " << frame;
+    for (int frame = 0; frame < 3; ++frame)
+      EXPECT_EQ(difference(picture(1), alone), "") << "bin " << bin << " frame " << frame;
   }
   root_->removeChild(node_);
   EXPECT_EQ(difference(picture(), alone), "");

@@ -80,13 +80,15 @@ inline int background_pixels(const Capture& capture) {
   return count;
 }
 
-inline osg::ref_ptr<osg::GraphicsContext> make_context(osg::GraphicsContext* shared = nullptr) {
+inline osg::ref_ptr<osg::GraphicsContext> make_context(osg::GraphicsContext* shared = nullptr, unsigned samples = 0) {
   osg::ref_ptr<osg::GraphicsContext::Traits> traits(new osg::GraphicsContext::Traits);
   traits->readDISPLAY();
   traits->width = k_width;
   traits->height = k_height;
   traits->pbuffer = true;
   traits->depth = 24;
+  traits->sampleBuffers = samples > 0 ? 1 : 0;
+  traits->samples = samples;
   traits->sharedContext = shared;
   return osg::GraphicsContext::createGraphicsContext(traits.get());
 }
