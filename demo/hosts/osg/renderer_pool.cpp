@@ -7,6 +7,7 @@
 #include <osg/ContextData>
 #include <osg/GraphicsContext>
 #include <osg/Notify>
+#include <thread>
 #include <utility>
 
 namespace sward::osg_host {
@@ -24,6 +25,12 @@ bool is_current(const osg::observer_ptr<osg::State>& owner) {
   return context == nullptr || context->isCurrent();
 }
 
+// Frees what a renderer holds outside of GL. Its context is gone, and its objects with it: on a thread of its own there
+// is no context, so that none of their names is deleted in another one.
+void bury(std::unique_ptr<host::SceneRenderer> renderer) {
+  std::thread([&renderer] { renderer.reset(); }).join();
+}
+
 }  // namespace
 
 void DeadRenderers::add(std::unique_ptr<host::SceneRenderer> renderer, const osg::observer_ptr<osg::State>& owner) {
@@ -35,14 +42,14 @@ void DeadRenderers::add(std::unique_ptr<host::SceneRenderer> renderer, const osg
 void DeadRenderers::flush() {
   const std::lock_guard lock(mutex_);
   std::erase_if(dead_, [](Dead& dead) {
-    if (!dead.owner.valid()) (void)dead.renderer.release();
+    if (!dead.owner.valid()) bury(std::move(dead.renderer));
     return !dead.renderer || is_current(dead.owner);
   });
 }
 
 void DeadRenderers::discardAllGLObjects() {
   const std::lock_guard lock(mutex_);
-  for (Dead& dead : dead_) (void)dead.renderer.release();
+  for (Dead& dead : dead_) bury(std::move(dead.renderer));
   dead_.clear();
 }
 

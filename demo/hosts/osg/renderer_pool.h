@@ -19,7 +19,8 @@ namespace sward::osg_host {
 
 /// Renderers that are waiting for their context to be current, so that their GL objects can be deleted. One for each
 /// contextID, among OpenSceneGraph's own managers (osg::get<DeadRenderers>): flushed when that context has drawn a
-/// frame and when it is closed. What a lost context leaves is not deleted, for its names may be another context's.
+/// frame and when it is closed. Objects of a context that is gone are not deleted, for their names may be another
+/// context's; memory is freed all the same.
 class DeadRenderers : public osg::GraphicsObjectManager {
  public:
   explicit DeadRenderers(unsigned context_id) : osg::GraphicsObjectManager("sward::DeadRenderers", context_id) {}
