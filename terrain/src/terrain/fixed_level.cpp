@@ -74,15 +74,14 @@ struct KeptChunk {
 
 class Memory final : public FixedTrianglesMemory {
  public:
-  void collect(const RoamTree& tree, const View& view, const FixedLevelOptions& options, const SurfaceState& surface,
-               FixedTriangles& out);
+  void collect(const ChunkSource& source, const SurfaceState& surface, FixedTriangles& out);
 
  private:
   void forget_changed(const SurfaceState& surface, int level);
   bool match_chunks();
   Chunk* acquire();
   void keep_or_release(const KeptChunk& kept);
-  bool refresh(const FixedLevelWalk& walk, size_t i);
+  bool refresh(const ChunkSource& source);
   void write_in_order(const ChunkKernel& kernel, FixedTriangles& out);
   void write_side_by_side(const ChunkKernel& kernel, FixedTriangles& out);
   void write_chunk(size_t i, const ChunkResult& result, Offset at, const FixedTriangles::Writer& to) const;
@@ -112,23 +111,20 @@ class Memory final : public FixedTrianglesMemory {
   WorkerPool pool_;
 };
 
-void Memory::collect(const RoamTree& tree, const View& view, const FixedLevelOptions& options,
-                     const SurfaceState& surface, FixedTriangles& out) {
+void Memory::collect(const ChunkSource& source, const SurfaceState& surface, FixedTriangles& out) {
+  const View& view = source.view();
+  const FixedLevelOptions& options = source.options();
   forget_changed(surface, options.level);
   const bool holds_this_view = contents_ == out.contents() && view_ && same(*view_, view) && same(options_, options);
   view_ = view;
   options_ = options;
   depth_ = std::min(options.level, k_chunk_depth);
-  const FixedLevelWalk walk(tree, *view_, options_);
-  walk.run(options.level - depth_, visits_);
+  source.run(options.level - depth_, visits_);
   const bool same_chunks = match_chunks();
   const bool still = holds_this_view && same_chunks;
-  std::atomic<bool> changed = false;
-  for_chunks([&](size_t i) {
-    if (refresh(walk, i)) changed.store(true, std::memory_order_relaxed);
-  });
+  const bool changed = refresh(source);
   if (still && !changed) return;
-  const ChunkKernel kernel(walk);
+  const ChunkKernel kernel(source);
   surface_z_ = std::round(view.eye.z);
   out.set_surface_z(surface_z_);
   if (parts() == 1) {
@@ -195,11 +191,17 @@ void Memory::keep_or_release(const KeptChunk& kept) {
   }
 }
 
-bool Memory::refresh(const FixedLevelWalk& walk, size_t i) {
-  Chunk& chunk = *chunks_[i];
-  const bool changed = !chunk.has_static || chunk.altitude.empty() == options_.altitudes;
-  if (changed) build_static(walk, visits_[i], depth_, chunk);
-  return refresh_drawn(walk.tree(), visits_[i], depth_, chunk) || changed;
+bool Memory::refresh(const ChunkSource& source) {
+  std::atomic<bool> changed = false;
+  const auto refresh_one = [&](size_t i) {
+    if (source.refresh(visits_[i], depth_, *chunks_[i])) changed.store(true, std::memory_order_relaxed);
+  };
+  if (source.refreshes_side_by_side()) {
+    for_chunks(refresh_one);
+  } else {
+    for (size_t i = 0; i < visits_.size(); ++i) refresh_one(i);
+  }
+  return changed;
 }
 
 int Memory::parts() const {
@@ -299,15 +301,31 @@ void Memory::write_nodes(const Chunk& chunk, const ChunkResult& result, Offset a
 
 }  // namespace
 
-void collect_fixed_level(const RoamTree& tree, const View& view, const FixedLevelOptions& options,
-                         const SurfaceState& surface, FixedTriangles& out) {
+SurfaceHistory::SurfaceHistory() {
+  static std::atomic<uint64_t> surfaces{0};
+  epoch_ = (++surfaces << 40) + 1;
+}
+
+void SurfaceHistory::changed(const LatticeBox& box) {
+  constexpr size_t k_kept = 16;
+  if (changes_.size() == k_kept) changes_.erase(changes_.begin());
+  changes_.push_back(box);
+  ++epoch_;
+}
+
+void collect_fixed_level(const ChunkSource& source, const SurfaceState& surface, FixedTriangles& out) {
   auto* memory = dynamic_cast<Memory*>(out.memory().get());
   if (memory == nullptr) {
     auto fresh = std::make_unique<Memory>();
     memory = fresh.get();
     out.memory() = std::move(fresh);
   }
-  memory->collect(tree, view, options, surface, out);
+  memory->collect(source, surface, out);
+}
+
+void collect_fixed_level(const RoamTree& tree, const View& view, const FixedLevelOptions& options,
+                         const SurfaceState& surface, FixedTriangles& out) {
+  collect_fixed_level(FixedLevelWalk(tree, view, options), surface, out);
 }
 
 }  // namespace sward::roam

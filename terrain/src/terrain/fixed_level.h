@@ -4,6 +4,7 @@
 
 #include <sward/terrain/fixed_triangles.h>
 #include <span>
+#include <vector>
 
 #include "roam_tree.h"
 
@@ -20,6 +21,25 @@ struct SurfaceState {
   /// epoch than these take everything as changed. Valid during the call.
   std::span<const LatticeBox> changed;
 };
+
+/// The epochs of one surface or mesh.
+class SurfaceHistory {
+ public:
+  /// Takes a range of epochs that no other of the process has.
+  SurfaceHistory();
+  void changed(const LatticeBox& box);
+  SurfaceState state() const { return {epoch_, changes_}; }
+
+ private:
+  uint64_t epoch_ = 0;
+  std::vector<LatticeBox> changes_;
+};
+
+class ChunkSource;
+
+/// Writes the triangles of a source's level that its view sees, as the next function does. Keys of visits must name
+/// the same triangles in all calls for one surface.
+void collect_fixed_level(const ChunkSource& source, const SurfaceState& surface, FixedTriangles& out);
 
 /// Writes the triangles of options.level that a view sees, on the surface of the tree's leaves, to `out`, whatever it
 /// held. Keeps what the next call needs in out.memory(): calls may be missed, trees, views and options may change in

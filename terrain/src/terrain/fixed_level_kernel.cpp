@@ -101,8 +101,8 @@ struct ChunkKernel::Frame {
   unsigned blocks = k_all_blocks;  // bit i: triangles of block i may be in sight
 };
 
-ChunkKernel::ChunkKernel(const FixedLevelWalk& walk) : walk_(walk) {
-  const View& view = walk.view();
+ChunkKernel::ChunkKernel(const ChunkSource& source) : source_(source) {
+  const View& view = source.view();
   const glm::dmat4 clip = view.clip_from_relative();
   const glm::dvec4 x = row_of(clip, 0) * (double(view.viewport.x) / view.viewport.y), y = row_of(clip, 1);
   row_w_ = row_of(clip, 3);
@@ -113,18 +113,18 @@ ChunkKernel::ChunkKernel(const FixedLevelWalk& walk) : walk_(walk) {
                    xy = glm::cross(linear(x), linear(y));
   determinant_ = float(glm::dot(linear(x), yw));
   shift_ = glm::vec3(x.w * yw + y.w * wx + row_w_.w * xy);
-  horizon_ = walk.options().horizon_m;
-  canopy_ = walk.options().canopy_m;
+  horizon_ = source.options().horizon_m;
+  canopy_ = source.options().canopy_m;
   for (size_t i = 0; i < 6; ++i) {
-    const glm::vec3 n(walk.planes()[i].n);
-    const float aside = glm::length(glm::vec2(n)) * walk.options().spread_m;
+    const glm::vec3 n(source.planes()[i].n);
+    const float aside = glm::length(glm::vec2(n)) * source.options().spread_m;
     halfspaces_[i] = {n, std::max(n.z, 0.0f) * canopy_ + aside, std::abs(n.z)};
   }
 }
 
 ChunkKernel::Frame ChunkKernel::frame_of(const ChunkVisit& visit, int depth, const Chunk& chunk) const {
   const DrawnTriangle& t = visit.triangle;
-  const glm::dvec3 apex = t.apex.world - walk_.view().eye;
+  const glm::dvec3 apex = t.apex.world - source_.view().eye;
   Frame frame;
   frame.pattern = &chunk_pattern(depth);
   frame.apex = glm::vec3(apex);
@@ -132,11 +132,11 @@ ChunkKernel::Frame ChunkKernel::frame_of(const ChunkVisit& visit, int depth, con
   frame.right = glm::vec2(t.right.world - t.apex.world);
   for (size_t i = 0; i < 6; ++i) frame.plane[i] = float(t.apex.plane[i]);
   frame.w = float(glm::dot(linear(row_w_), apex) + row_w_.w);
-  const bool test_facing = walk_.options().skip_back_faces && !chunk.flat;
+  const bool test_facing = source_.options().skip_back_faces && !chunk.flat;
   frame.away = test_facing ? canopy_ : std::numeric_limits<float>::max();
   const double farthest = std::max(
-      {glm::length(apex), glm::length(t.left.world - walk_.view().eye), glm::length(t.right.world - walk_.view().eye)});
-  const float bound = visit.node == k_none ? 0.0f : walk_.tree().corner[visit.node].bound;
+      {glm::length(apex), glm::length(t.left.world - source_.view().eye), glm::length(t.right.world - source_.view().eye)});
+  const float bound = visit.bound;
   frame.doubt = k_rounding * (2 + chunk.steepness) * (float(farthest) + bound);
   frame.all_pass = visit.active == 0 && float(farthest) + bound + frame.doubt <= horizon_ && !test_facing;
   if (!frame.all_pass && depth == k_chunk_depth) frame.blocks = blocks_in_sight(visit, bound);
@@ -185,7 +185,7 @@ void ChunkKernel::evaluate(const ChunkVisit& visit, int depth, const Chunk& chun
   result.visible = frame.all_pass ? chunk.solid : chunk.solid & passed;
   for (uint64_t rest = doubtful & chunk.solid; rest != 0; rest &= rest - 1) {
     const auto j = unsigned(std::countr_zero(rest));
-    const ExactTriangle exact = walk_.exact(visit, depth, j);
+    const ExactTriangle exact = source_.exact(visit, depth, chunk, j);
     result.visible = (result.visible & ~(uint64_t(1) << j)) | uint64_t(exact.visible) << j;
     result.distance[j] = float(exact.distance);
     result.screen_area[j] = exact.screen_area;

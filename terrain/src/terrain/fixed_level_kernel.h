@@ -20,12 +20,12 @@ const ChunkPattern& chunk_pattern(int depth);
 /// Distances, projected areas and visibility of a chunk's triangles for one view.
 ///
 /// In single precision, relative to the chunk, for all triangles side by side. Where a test comes out closer than
-/// rounding could move it, the triangle is tested again by FixedLevelWalk::exact(), so that the set is that of double
+/// rounding could move it, the triangle is tested again by ChunkSource::exact(), so that the set is that of double
 /// precision.
 class ChunkKernel {
  public:
-  /// `walk` must outlive the kernel.
-  explicit ChunkKernel(const FixedLevelWalk& walk);
+  /// `source` must outlive the kernel.
+  explicit ChunkKernel(const ChunkSource& source);
   /// Distances and areas are written for visible triangles; others' are unspecified. Safe from several threads.
   void evaluate(const ChunkVisit& visit, int depth, const Chunk& chunk, ChunkResult& result) const;
 
@@ -49,7 +49,7 @@ class ChunkKernel {
     glm::vec3 n;
     float up, reach;  // of the canopy and what spreads from it; of a bound
   };
-  const FixedLevelWalk& walk_;
+  const ChunkSource& source_;
   std::array<Halfspace, 6> halfspaces_;
   // Rows x, y (x scaled to units of half the viewport's height) and w of the clip matrix.
   glm::dvec4 row_w_;

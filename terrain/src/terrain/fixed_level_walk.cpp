@@ -3,41 +3,9 @@
 
 #include "fixed_level_walk.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "fixed_level_chunk.h"
 
 namespace sward::roam {
-
-namespace {
-
-double squared_distance_to_edge(glm::dvec3 a, glm::dvec3 ab) {
-  const double length2 = glm::dot(ab, ab);
-  const double t = length2 > 0 ? std::clamp(-glm::dot(a, ab) / length2, 0.0, 1.0) : 0.0;
-  const glm::dvec3 p = a + t * ab;
-  return glm::dot(p, p);
-}
-
-// From the origin to the nearest point of a triangle: inside, on an edge or at a corner, by the signs of the
-// barycentric coordinates of the projection.
-double distance_to_triangle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
-  const glm::dvec3 ab = b - a, ac = c - a, normal = glm::cross(ab, ac);
-  const double area2 = glm::dot(normal, normal);
-  const double to_b = glm::dot(glm::cross(ac, a), normal), to_c = glm::dot(glm::cross(a, ab), normal);
-  if (to_b >= 0 && to_c >= 0 && to_b + to_c <= area2) return std::abs(glm::dot(a, normal)) / std::sqrt(area2);
-  return std::sqrt(
-      std::min({squared_distance_to_edge(a, ab), squared_distance_to_edge(a, ac), squared_distance_to_edge(b, c - b)}));
-}
-
-}  // namespace
-
-FixedLevelWalk::FixedLevelWalk(const RoamTree& tree, const View& view, const FixedLevelOptions& options)
-    : tree_(tree),
-      view_(view),
-      options_(options),
-      planes_(frustum_planes(view)),
-      clip_(view.clip_from_relative()),
-      horizon2_(double(options.horizon_m) * options.horizon_m) {}
 
 void FixedLevelWalk::run(int chunk_level, std::vector<ChunkVisit>& visits) const {
   visits.clear();
@@ -50,68 +18,7 @@ void FixedLevelWalk::run(int chunk_level, std::vector<ChunkVisit>& visits) const
 }
 
 DrawnCorner FixedLevelWalk::corner(uint32_t vertex) const {
-  DrawnCorner c;
-  c.lattice = tree_.vertices.lattice[vertex];
-  c.world = drawn_position(tree_, vertex);
-  const glm::dvec3 relative = c.world - view_.eye;
-  for (size_t i = 0; i < 6; ++i) c.plane[i] = glm::dot(planes_[i].n, relative) + planes_[i].d;
-  return c;
-}
-
-DrawnCorner FixedLevelWalk::middle(const DrawnCorner& a, const DrawnCorner& b) const {
-  DrawnCorner m;
-  m.lattice = a.lattice + (b.lattice - a.lattice) / 2;
-  m.world = glm::dvec3(tree_.lattice().world_xy(m.lattice), 0.5 * (a.world.z + b.world.z));
-  for (size_t i = 0; i < 6; ++i) m.plane[i] = 0.5 * (a.plane[i] + b.plane[i]);
-  return m;
-}
-
-// Without its cover, which takes the corners that a split decides.
-DrawnTriangle FixedLevelWalk::child(const DrawnTriangle& t, int turn, const DrawnCorner& m) const {
-  return {t.id.child(turn), m, turn == 0 ? t.apex : t.right, turn == 0 ? t.left : t.apex, t.cover};
-}
-
-// What stands on the surface reaches `canopy_m` up and `spread_m` aside from it, the surface lies within `bound` of the triangle. Halfspaces
-// that hold all of it are taken out of `active`.
-bool FixedLevelWalk::culled(const DrawnTriangle& t, double bound, unsigned& active) const {
-  if (t.cover == Cover::padding || beyond_horizon(t, bound)) return true;
-  for (unsigned rest = active; rest != 0; rest &= rest - 1) {
-    const auto i = size_t(std::countr_zero(rest));
-    const double a = t.apex.plane[i], b = t.left.plane[i], c = t.right.plane[i];
-    const double up = planes_[i].n.z, reach = bound * std::abs(up);
-    const double spread = glm::length(glm::dvec2(planes_[i].n)) * options_.spread_m;
-    if (std::max({a, b, c}) + reach + std::max(up, 0.0) * options_.canopy_m + spread < 0) return true;
-    if (std::min({a, b, c}) - reach + std::min(up, 0.0) * options_.canopy_m - spread >= 0) active &= ~(1u << i);
-  }
-  return false;
-}
-
-bool FixedLevelWalk::beyond_horizon(const DrawnTriangle& t, double bound) const {
-  const glm::dvec3 a = t.apex.world, b = t.left.world, c = t.right.world;
-  glm::dvec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
-  low.z -= bound;
-  high.z += bound + options_.canopy_m;
-  const glm::dvec3 gap = view_.eye - glm::clamp(view_.eye, low, high);
-  return glm::dot(gap, gap) > horizon2_;
-}
-
-bool FixedLevelWalk::faces_away(const DrawnTriangle& t) const {
-  if (!options_.skip_back_faces) return false;
-  const glm::dvec3 normal = glm::cross(t.left.world - t.apex.world, t.right.world - t.apex.world);
-  return glm::dot(normal, view_.eye - t.apex.world) < -double(options_.canopy_m) * glm::length(normal);
-}
-
-float FixedLevelWalk::screen_area(const DrawnTriangle& t) const {
-  const double aspect = double(view_.viewport.x) / view_.viewport.y;
-  glm::dvec2 p[3];
-  const DrawnCorner* corners[3] = {&t.apex, &t.left, &t.right};
-  for (int i = 0; i < 3; ++i) {
-    const glm::dvec4 clip = clip_ * glm::dvec4(corners[i]->world - view_.eye, 1.0);
-    if (corners[i]->plane[4] < 0 || clip.w <= 0) return std::numeric_limits<float>::infinity();
-    p[i] = glm::dvec2(clip.x * aspect, clip.y) / clip.w;
-  }
-  const glm::dvec2 u = p[1] - p[0], v = p[2] - p[0];
-  return float(0.5 * std::abs(u.x * v.y - u.y * v.x));
+  return ChunkSource::corner(tree_.vertices.lattice[vertex], drawn_position(tree_, vertex));
 }
 
 void FixedLevelWalk::visit(const Run& run, uint32_t node, const DrawnTriangle& t, unsigned active) const {
@@ -138,18 +45,24 @@ void FixedLevelWalk::split_flat(const Run& run, const DrawnTriangle& t, unsigned
   const DrawnCorner m = middle(t.left, t.right);
   for (int turn = 0; turn < 2; ++turn) {
     DrawnTriangle below = child(t, turn, m);
-    below.cover = cover_of(tree_.lattice(), {below.apex.lattice, below.left.lattice, below.right.lattice}, t.cover);
+    below.cover = cover_of(lattice(), {below.apex.lattice, below.left.lattice, below.right.lattice}, t.cover);
     unsigned still_active = active;
     if (!culled(below, 0.0, still_active)) split_flat(run, below, still_active);
   }
 }
 
-void FixedLevelWalk::add(const Run& run, uint32_t node, const DrawnTriangle& t, unsigned active) {
-  constexpr uint64_t k_turns = (uint64_t(1) << k_max_level) - 1;
-  run.visits.push_back({t, node, active, uint64_t(run.root) << k_max_level | (t.id.bits & k_turns)});
+void FixedLevelWalk::add(const Run& run, uint32_t node, const DrawnTriangle& t, unsigned active) const {
+  const float bound = node == k_none ? 0.0f : tree_.corner[node].bound;
+  run.visits.push_back({t, node, active, bound, chunk_key(run.root, t.id)});
 }
 
-ExactTriangle FixedLevelWalk::exact(const ChunkVisit& visit, int depth, unsigned index) const {
+bool FixedLevelWalk::refresh(ChunkVisit& visit, int depth, Chunk& chunk) const {
+  const bool stale = !chunk.has_static || chunk.altitude.empty() == options().altitudes;
+  if (stale) build_static(*this, visit, depth, chunk);
+  return refresh_drawn(tree_, visit, depth, chunk) || stale;
+}
+
+ExactTriangle FixedLevelWalk::exact(const ChunkVisit& visit, int depth, const Chunk&, unsigned index) const {
   DrawnTriangle t = visit.triangle;
   uint32_t node = visit.node;
   unsigned active = visit.active;
@@ -158,16 +71,14 @@ ExactTriangle FixedLevelWalk::exact(const ChunkVisit& visit, int depth, unsigned
     const bool flat = node == k_none;
     const uint32_t first = flat ? k_none : tree_.child[node];
     t = child(t, turn, flat ? middle(t.left, t.right) : corner(tree_.corner[first].apex));
-    t.cover = cover_of(tree_.lattice(), {t.apex.lattice, t.left.lattice, t.right.lattice}, t.cover);
+    t.cover = cover_of(lattice(), {t.apex.lattice, t.left.lattice, t.right.lattice}, t.cover);
     if (!flat) node = first + uint32_t(turn);
     const bool leaf = !flat && tree_.is_leaf(node);
     if (culled(t, flat || leaf ? 0.0 : double(tree_.corner[node].bound), active) || (leaf && faces_away(t))) return {};
     if (leaf) node = k_none;
   }
   if (node != k_none && faces_away(t)) return {};
-  const double distance =
-      distance_to_triangle(t.apex.world - view_.eye, t.left.world - view_.eye, t.right.world - view_.eye);
-  return {distance <= double(options_.horizon_m), distance, screen_area(t)};
+  return measure(t);
 }
 
 }  // namespace sward::roam

@@ -24,15 +24,7 @@ struct RoamMesh::Impl {
   std::unique_ptr<Surface> own_surface;  // of meshes over a field's bounds
   roam::RoamEngine engine;
   uint64_t revision = first_revision();
-  uint64_t surface_epoch = revision;        // one more for every change of the surface's static data
-  std::vector<LatticeBox> surface_changes = {};  // where the last of them were
-
-  void data_changed(const LatticeBox& box) {
-    constexpr size_t k_kept = 16;
-    if (surface_changes.size() == k_kept) surface_changes.erase(surface_changes.begin());
-    surface_changes.push_back(box);
-    ++surface_epoch;
-  }
+  roam::SurfaceHistory history;  // of the surface's static data
 };
 
 Expected<RoamMesh> RoamMesh::create(const Bounds& bounds, const RoamOptions& options) {
@@ -43,7 +35,7 @@ Expected<RoamMesh> RoamMesh::create(const Bounds& bounds, const RoamOptions& opt
 }
 
 Expected<RoamMesh> RoamMesh::create(const Surface& surface, const RoamOptions& options) {
-  auto impl = std::make_unique<Impl>(Impl{nullptr, roam::RoamEngine(surface, options)});
+  auto impl = std::make_unique<Impl>(Impl{nullptr, roam::RoamEngine(surface, options), first_revision(), {}});
   if (auto checked = impl->engine.set_options(options); !checked) return tl::unexpected<Error>(checked.error());
   return RoamMesh(std::move(impl));
 }
@@ -61,13 +53,13 @@ Expected<RoamStats> RoamMesh::update(const View& view, double time_s) {
 
 void RoamMesh::surface_changed(const LatticeBox& box) {
   impl_->engine.surface_changed(box);
-  impl_->data_changed(box);
+  impl_->history.changed(box);
 }
 
 void RoamMesh::residency_changed(const LatticeBox& box) {
   impl_->engine.residency_changed(box);
   // Slopes and holes are those of what is resident.
-  impl_->data_changed(box);
+  impl_->history.changed(box);
 }
 
 float RoamMesh::morph_time() const {
@@ -150,7 +142,7 @@ void RoamMesh::fixed_level_triangles(const FixedLevelOptions& options, FixedTria
   SWARD_ASSERT(options.level >= 0 && options.level <= k_max_level, "level must be in [0, k_max_level]");
   const auto& view = impl_->engine.view();
   if (!view) return out.clear();
-  roam::collect_fixed_level(impl_->engine.tree(), *view, options, {impl_->surface_epoch, impl_->surface_changes}, out);
+  roam::collect_fixed_level(impl_->engine.tree(), *view, options, impl_->history.state(), out);
 }
 
 Expected<void> RoamMesh::validate() const {
