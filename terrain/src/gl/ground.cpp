@@ -70,15 +70,22 @@ void set_trilinear(GLuint texture) {
 }
 
 Expected<GroundTextures> GroundTextures::create(const HeightField& field, const ColorMap& colors) {
-  return create(field.lattice(), colors, SlopeMap::create(field));
+  const Lattice& lattice = field.lattice();
+  return create(lattice.min_corner(), lattice.max_corner(), colors, SlopeMap::create(field));
 }
 
 Expected<GroundTextures> GroundTextures::create(const Surface& surface, const ColorMap& colors,
                                                 const SlopeMapOptions& options) {
-  return create(surface.lattice(), colors, SlopeMap::create(surface, options));
+  const Lattice& lattice = surface.lattice();
+  return create(lattice.min_corner(), lattice.max_corner(), colors, SlopeMap::create(surface, options));
 }
 
-Expected<GroundTextures> GroundTextures::create(const Lattice& lattice, const ColorMap& colors,
+Expected<GroundTextures> GroundTextures::create(const ColorMap& colors) {
+  const glm::dvec2 low = colors.min_corner;
+  return create(low, low + colors.size, colors, SlopeMap::create_level(low, colors.size));
+}
+
+Expected<GroundTextures> GroundTextures::create(glm::dvec2 data_min, glm::dvec2 data_max, const ColorMap& colors,
                                                 Expected<SlopeMap> slopes) {
   if (!slopes) return tl::unexpected(slopes.error());
   if (Expected<void> valid = colors.validate(); !valid) return tl::unexpected(valid.error());
@@ -100,8 +107,8 @@ Expected<GroundTextures> GroundTextures::create(const Lattice& lattice, const Co
   ground.map_min_ = colors.min_corner;
   ground.map_size_ = colors.size;
   ground.texels_ = {colors.width, colors.height};
-  ground.data_min_ = lattice.min_corner();
-  ground.data_max_ = lattice.max_corner();
+  ground.data_min_ = data_min;
+  ground.data_max_ = data_max;
   return ground;
 }
 

@@ -116,6 +116,16 @@ Expected<SlopeMap> SlopeMap::create(const HeightField& field) {
   return SlopeMap(std::move(impl));
 }
 
+Expected<SlopeMap> SlopeMap::create_level(glm::dvec2 min_corner, glm::dvec2 size) {
+  if (auto context = require_context(); !context) return tl::unexpected(context.error());
+  Lattice lattice;  // a sample at each corner
+  lattice.spacing = size;
+  lattice.origin = glm::dvec3(min_corner + 0.5 * size, 0);
+  auto impl = std::make_unique<Impl>(lattice, k_least_window, lattice.columns);
+  impl->tiles.take(std::numeric_limits<size_t>::max());
+  return SlopeMap(std::move(impl));
+}
+
 Expected<SlopeMap> SlopeMap::create(const Surface& surface, const SlopeMapOptions& options) {
   if (auto context = require_context(); !context) return tl::unexpected(context.error());
   const int window = options.window_texels;

@@ -31,6 +31,7 @@ struct alignas(64) Chunk {
   bool flat = true;        ///< Lies within one leaf.
   float steepness = 0;     ///< Largest rise along a triangle's edges against its legs.
   glm::dvec3 corner_z{0};  ///< Drawn z of the chunk's apex, left, right.
+  float reach = 0;         ///< How far its ground leaves corner_z, where a host answers heights: metres, up or down.
   uint64_t solid = 0;      ///< Bit j: the triangle is neither padding nor a hole. Static.
   LatticeBox box;          ///< Static.
   std::vector<SplitMark> marks;

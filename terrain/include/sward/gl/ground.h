@@ -26,6 +26,10 @@ class SWARD_API GroundTextures {
   static Expected<GroundTextures> create(const Surface& surface, const ColorMap& colors,
                                          const SlopeMapOptions& options = {});
 
+  /// The same for a host that draws its ground itself: colours alone, which is all that plants ask for. `colors` needs
+  /// min_corner and size of the rectangle that it covers. TerrainRenderer would shade it as level ground.
+  static Expected<GroundTextures> create(const ColorMap& colors);
+
   /// Takes the slopes of an edited field anew, where `changed` (EditResult::changed) is; then the map is what create()
   /// would make of the field now. `field` has the size that it was made from (asserted). Leaves all state as it was.
   /// Cost: that of the area, and once the GPU's for the map's mip levels: a few tenths of a millisecond for 4097 x
@@ -63,7 +67,8 @@ class SWARD_API GroundTextures {
 
  private:
   explicit GroundTextures(SlopeMap slopes) : slopes_(std::move(slopes)) {}
-  static Expected<GroundTextures> create(const Lattice& lattice, const ColorMap& colors, Expected<SlopeMap> slopes);
+  static Expected<GroundTextures> create(glm::dvec2 data_min, glm::dvec2 data_max, const ColorMap& colors,
+                                         Expected<SlopeMap> slopes);
 
   SlopeMap slopes_;
   Texture base_map_, base_map_raw_, detail_, detail_slope_, untouched_map_;

@@ -29,6 +29,9 @@ class SWARD_API SlopeMap {
   static Expected<SlopeMap> create(const HeightField& field);
   /// For a surface that may change: empty until the first follow(). Fails where the device's textures are too small.
   static Expected<SlopeMap> create(const Surface& surface, const SlopeMapOptions& options = {});
+  /// Level ground over a rectangle (western, southern corner and metres): never followed or updated. For hosts that
+  /// draw their ground themselves. Leaves all state as it was.
+  static Expected<SlopeMap> create_level(glm::dvec2 min_corner, glm::dvec2 size);
   SlopeMap(SlopeMap&&) noexcept;
   SlopeMap& operator=(SlopeMap&&) noexcept;
   ~SlopeMap();

@@ -7,6 +7,7 @@
 ///
 /// HeightField (samples and relief) -> Bounds (error of every diamond) -> RoamMesh (mesh for a View)
 ///   -> visible_indices() for a renderer, fixed_level_triangles() for vegetation.
+/// HostTerrain (heights of a host's own terrain, through a callback) -> fixed_level_triangles() alone.
 /// World (squares loaded and dropped) takes the place of HeightField and Bounds where they do not fit into memory.
 #include <sward/terrain/bounds.h>
 #include <sward/terrain/color_map.h>
@@ -15,6 +16,7 @@
 #include <sward/terrain/fixed_triangles.h>
 #include <sward/terrain/height_field.h>
 #include <sward/terrain/host_priorities.h>
+#include <sward/terrain/host_terrain.h>
 #include <sward/terrain/many_views.h>
 #include <sward/terrain/queries.h>
 #include <sward/terrain/roam_mesh.h>
