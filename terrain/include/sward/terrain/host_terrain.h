@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sward/api.h>
 #include <sward/terrain/error.h>
 #include <sward/terrain/fixed_triangles.h>
 #include <sward/terrain/lattice.h>
@@ -36,7 +37,7 @@ struct HostTerrainDesc {
 /// Three heights at its corners make a triangle, three between them and those below say whether and where it is split.
 /// Triangles with a place among these that has no ground are left out: holes have edges as coarse as that. Areas and
 /// slopes are the triangles' own.
-class HostTerrain {
+class SWARD_API HostTerrain {
  public:
   /// Fails on a box that is empty, not finite, or more than 1024 times as long as wide, on sides beyond 8000 km, and on
   /// feet out of range.
