@@ -11,4 +11,5 @@ sward_install "${sward_packages[@]}" "${sward_test_packages[@]}"
 sward_build
 sward_say "running the tests"
 cd "$sward_root"
-exec ctest --preset release -j "$(nproc)" "$@"
+# One test more than cores: some wait for files, windows and loads.
+exec ctest --preset release -j $(($(nproc) + 1)) "$@"

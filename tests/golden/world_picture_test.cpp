@@ -181,7 +181,7 @@ TEST_F(WorldPicture, StreamedInEndsAsTheSame) {
   int still = 0;
   for (int frame = 0; frame < 3000 && still < 10; ++frame) {
     target->begin();
-    time += 1.0 / 60;
+    time += 1.0 / 15;
     auto stats = renderer->draw(view, lighting, time, target->framebuffer(), target->samples(), true);
     ASSERT_TRUE(stats) << stats.error().message;
     if (frame == 0) first = target->read_rgb();
