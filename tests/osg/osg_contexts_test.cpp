@@ -64,8 +64,7 @@ constexpr double k_rough = 4;  // Bare ground from 3 m above is below 1.
 
 TEST(OsgContexts, ClosingOneWindowKeepsTheOtherGoing) {
   using Threading = osgViewer::ViewerBase;
-  for (const auto model :
-       {Threading::SingleThreaded, Threading::DrawThreadPerContext, Threading::CullDrawThreadPerContext}) {
+  for (const auto model : {Threading::DrawThreadPerContext, Threading::CullDrawThreadPerContext}) {
     const osg::ref_ptr<osg::Node> node = read_scene("small");
     ASSERT_TRUE(node.valid());
     TwoViews two(model, node.get());

@@ -28,14 +28,14 @@ struct Shown {
   osg::ref_ptr<osg::Image> picture;  // empty: none was written
 };
 
-// Seven frames; c is pressed in the fourth.
-Shown show(const std::string& arguments, const std::string& keys = "c3") {
+// Five frames; c is pressed in the third.
+Shown show(const std::string& arguments, const std::string& keys = "c2") {
   const fs::path folder =
       fs::path(testing::TempDir()) /
       (std::string("sward_osgviewer_") + testing::UnitTest::GetInstance()->current_test_info()->name());
   fs::remove_all(folder);
   fs::create_directories(folder);
-  const std::string command = "cd '" + folder.string() + "' && OSG_RUN_FRAME_COUNT=7 OSG_WINDOW='0 0 " +
+  const std::string command = "cd '" + folder.string() + "' && OSG_RUN_FRAME_COUNT=5 OSG_WINDOW='0 0 " +
                               std::to_string(k_width) + " " + std::to_string(k_height) + "' " SWARD_OSGVIEWER " " +
                               arguments + " " + keys + ".keys > said.txt 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
@@ -89,7 +89,7 @@ TEST(Osgviewer, ShowsThemOnFourSamplesWithThreads) {
 
 // The statistics' panel is drawn by a camera of its own over the scene.
 TEST(Osgviewer, ShowsStatisticsAndAModelOverTheScene) {
-  const Shown shown = show(k_scene + " " + k_mast + " --DrawThreadPerContext", "s0_s1_c4");
+  const Shown shown = show(k_scene + " " + k_mast + " --DrawThreadPerContext", "s0_s1_c3");
   expect_no_complaint(shown);
   ASSERT_TRUE(shown.picture.valid()) << shown.said;
   int red = 0;
