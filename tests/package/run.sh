@@ -32,6 +32,7 @@ inside sh -c 'apt-get install -q -y --no-install-recommends /packages/*.deb g++ 
   libegl1 libgl1-mesa-dri'
 inside env PICTURE=/packages/hello.ppm SIZE=960x540 ALL=1 bash /packages/installed.sh /usr
 inside sward --version
-inside sh -c 'cd /packages && LIBGL_ALWAYS_SOFTWARE=1 sward render /usr/share/sward/scenes/flowers.toml -o flowers.png'
+inside sh -c 'cd /packages && LIBGL_ALWAYS_SOFTWARE=1 sward render /usr/share/sward/scenes/border.toml \
+  --shaders /usr/share/sward/shaders --size 320x180 --samples 1 -o border.png'
 cp "$root/packages/hello.ppm" "$here/../../build/hello.ppm"
 echo "run.sh: the picture is build/hello.ppm"
