@@ -169,6 +169,7 @@ TEST_F(Misuse, ObjectsOutliveTheirContextAndDieWithoutACall) {
 }
 
 TEST_F(Misuse, DestructionDoesNotReachIntoAnotherContext) {
+  ASSERT_TRUE(gl::require_context());  // as every creation asks first
   gl::VertexArray ours = gl::create_vertex_array();
   gl::Framebuffer framebuffer = gl::create_framebuffer();
   gl::Query query = gl::create_query(GL_SAMPLES_PASSED);

@@ -159,6 +159,7 @@ std::vector<Entry> gl_plumbing() {
        [](Objects& o) {
          check(gl::GroundTextures::create(*o.world.ground.field, o.world.map));
          check(gl::GroundTextures::create(*o.world.ground.surface, o.world.map));
+         check(gl::GroundTextures::create(o.world.map));
        }},
       {"GroundTextures::update_slopes",
        [](Objects& o) { o.scene.textures.update_slopes(*o.world.ground.field, some_box()); }},
@@ -169,6 +170,7 @@ std::vector<Entry> gl_plumbing() {
          check(gl::SlopeMap::create(*o.world.ground.field));
          check(gl::SlopeMap::create(*o.world.ground.surface, {.whole_texels = 8, .window_texels = 512}));
        }},
+      {"SlopeMap::create_level", [](Objects&) { check(gl::SlopeMap::create_level({-50, -40}, {100, 80})); }},
       {"SlopeMap::follow",
        [](Objects& o) {
          o.slopes.follow(*o.world.ground.surface, {0, 0}, 100);
