@@ -24,6 +24,22 @@ function(sward_settings target)
   endif()
 endfunction()
 
+# sward_precompiled(NAME HEADER LIBRARIES...): a target whose precompiled HEADER others take by sward_precompile(). Most of
+# what a file takes to compile is headers that all files share. A convenience of the build: every file includes what it
+# names, and -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds as well.
+function(sward_precompiled name header)
+  file(GENERATE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp" CONTENT "\n")
+  add_library(${name} OBJECT "${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp")
+  target_precompile_headers(${name} PRIVATE "${header}")
+  target_link_libraries(${name} PRIVATE ${ARGN})
+  sward_settings(${name})
+endfunction()
+
+# sward_precompile(TARGET NAME): TARGET is compiled with the very options of NAME.
+function(sward_precompile target name)
+  target_precompile_headers(${target} REUSE_FROM ${name})
+endfunction()
+
 # sward_library(NAME [USES sward's libraries] [PUBLIC ...] [PRIVATE ...] [INCLUDES folders]):
 # compiles src/NAME/*.cpp once, into the object library sward_NAME_objects, and makes of it
 #   sward_NAME         static; what tests and the tool link, for they look at what is hidden
@@ -41,6 +57,7 @@ function(sward_library name)
   # Only what SWARD_API marks is seen from outside.
   set_target_properties(sward_${name}_objects PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   sward_settings(sward_${name}_objects)
+  sward_precompile(sward_${name}_objects sward_library_headers)
 
   add_library(sward_${name} STATIC)
   set_target_properties(sward_${name} PROPERTIES OUTPUT_NAME sward-${name} EXPORT_NAME ${name}_static)

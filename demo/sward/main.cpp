@@ -4,6 +4,7 @@
 // The command-line tool. Exit status: 0 done; 1 a fault of data, files or GL, told in one line; 2 wrong usage.
 
 #include <sward/version.h>
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 

@@ -3,6 +3,7 @@
 
 #include "sward/scene_options.h"
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>

@@ -3,13 +3,16 @@
 #pragma once
 
 #include <sward/scene/scene.h>
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "host/scene_maps.h"
 #include "host/scene_renderer.h"
+
+namespace CLI {
+class App;
+}
 
 namespace sward::tool {
 

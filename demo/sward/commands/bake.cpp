@@ -3,6 +3,7 @@
 
 #include <sward/terrain/world_bake.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <optional>

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <sward/terrain/error.h>
-#include <CLI/CLI.hpp>
 #include <functional>
+
+namespace CLI {
+class App;
+}
 
 namespace sward::tool {
 

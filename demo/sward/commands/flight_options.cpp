@@ -3,6 +3,7 @@
 
 #include "sward/commands/flight_options.h"
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <limits>

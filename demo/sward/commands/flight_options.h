@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 
 #include "host/flight.h"
 #include "host/scene_terrain.h"
+
+namespace CLI {
+class App;
+}
 
 namespace sward::tool {
 

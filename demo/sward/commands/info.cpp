@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "host/egl_context.h"

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <optional>
 

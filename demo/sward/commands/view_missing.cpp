@@ -5,6 +5,8 @@
 
 #ifndef SWARD_WINDOW
 
+#include <CLI/CLI.hpp>
+
 #include "sward/commands/commands.h"
 
 namespace sward::tool {

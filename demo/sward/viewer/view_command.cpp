@@ -5,6 +5,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <CLI/CLI.hpp>
 #include <imgui.h>
 
 #include <algorithm>
