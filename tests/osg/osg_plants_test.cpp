@@ -74,10 +74,10 @@ osg::ref_ptr<osg::Image> green() {
 
 sward::Layer meadow() {
   sward::Layer layer;
-  layer.horizon_m = 20;
-  layer.density = 80;
+  layer.horizon_m = 9;
+  layer.density = 60;
   sward::Species grass;
-  grass.hsv = {92, 0.52f, 0.42f};
+  grass.reference_hsv = {92.0f / 360, 0.52f, 0.42f};
   grass.height_m = {0.4f, 0.6f};
   grass.width_m = {0.02f, 0.03f};
   layer.species = {grass};
@@ -222,10 +222,10 @@ class Plants : public Offscreen {
 };
 
 TEST_F(Plants, StandBeforeTheGroundAndLeaveItAlone) {
-  draw(ground_, 2);
+  draw(ground_, 1);
   const std::vector<unsigned char> bare = capture_->bytes();
   const double smooth = roughness(*capture_, k_height / 2);
-  draw(scene_, 2);
+  draw(scene_, 1);
   EXPECT_GT(plants_->seeded(), 20u);
   EXPECT_GT(roughness(*capture_, k_height / 2), 4 + smooth);
   const std::vector<unsigned char> covered = capture_->bytes();
@@ -240,12 +240,12 @@ TEST_F(Plants, StandBeforeTheGroundAndLeaveItAlone) {
 // Plants alone, on ground that is not drawn: roots and shadows lie on the surface, so the ground hides what is behind
 // its hills and little else.
 TEST_F(Plants, AreHiddenByTheGroundInFrontOfThem) {
-  draw(plants_, 2);
+  draw(plants_, 1);
   const int alone = k_width * k_height - background_pixels(*capture_);
   const std::vector<unsigned char> all = capture_->bytes();
-  draw(ground_, 2);
+  draw(ground_, 1);
   const std::vector<unsigned char> bare = capture_->bytes();
-  draw(scene_, 2);
+  draw(scene_, 1);
   const std::vector<unsigned char> both = capture_->bytes();
   int seen = 0;
   for (size_t i = 0; i < both.size(); i += 3)
@@ -255,14 +255,14 @@ TEST_F(Plants, AreHiddenByTheGroundInFrontOfThem) {
 }
 
 TEST_F(Plants, MoveAndTurnWithTheNodesAboveThem) {
-  draw(scene_, 2);
+  draw(scene_, 1);
   const std::vector<unsigned char> here = capture_->bytes();
   const osg::Matrixd way =
       osg::Matrixd::rotate(0.6, osg::Vec3d(0, 0, 1)) * osg::Matrixd::translate(4096, -1024, 128);
   const osg::ref_ptr<osg::MatrixTransform> moved(new osg::MatrixTransform(way));
   moved->addChild(scene_);
   look(way);
-  draw(moved, 2);
+  draw(moved, 1);
   const std::vector<unsigned char> there = capture_->bytes();
   // Edges fall between other pixels' middles now and then, by the floats of OpenSceneGraph's matrices.
   size_t far = 0;
@@ -272,12 +272,12 @@ TEST_F(Plants, MoveAndTurnWithTheNodesAboveThem) {
 }
 
 TEST_F(Plants, ComeBackAfterTheirObjectsWereReleased) {
-  draw(scene_, 2);
+  draw(scene_, 1);
   const std::vector<unsigned char> before = capture_->bytes();
   ASSERT_TRUE(context_->makeCurrent());
   plants_->releaseGLObjects(context_->getState());
   context_->releaseContext();
-  draw(scene_, 2);
+  draw(scene_, 1);
   EXPECT_EQ(difference(capture_->bytes(), before), "");
 }
 
