@@ -7,6 +7,7 @@
 #include <sward/terrain/terrain.h>
 #include <sward/vegetation/plants.h>
 #include <sward/vegetation/seeding.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -244,6 +245,47 @@ TEST(HostTerrain, FeetFollowTheGroundWithinTheirError) {
   const HostTerrain flat = make_hills(hills, desc);
   EXPECT_EQ(all_of(flat, 30).nodes().size(), 1u);
   EXPECT_GT(worst_foot(flat, 30, hills), 0.2) << "flat triangles do not";
+}
+
+// Whether the ground of a triangle is seen anywhere, and whether its plane alone would not be.
+struct Seen {
+  bool ground, plane;
+};
+Seen seen(const FixedTriangles& all, size_t i, const View& view, double horizon) {
+  const auto inside = [&, planes = sward::frustum_planes(view)](glm::dvec3 p) {
+    const auto before = [&](const sward::Plane& plane) { return signed_distance(plane, p - view.eye) > 0.01; };
+    return glm::distance(p, view.eye) < horizon && std::all_of(planes.begin(), planes.end(), before);
+  };
+  Seen result{false, false};
+  for (double l = 0; l <= 1; l += 0.1)
+    for (double r = 0; l + r <= 1; r += 0.1) {
+      const glm::dvec3 flat = all.apex()[i] + l * glm::dvec3(all.to_left()[i]) + r * glm::dvec3(all.to_right()[i]);
+      result.plane |= inside(flat);
+      result.ground |= inside({flat.x, flat.y, drawn_z(all, i, {l, r})});
+    }
+  return result;
+}
+
+TEST(HostTerrain, KeepsTrianglesThatOnlyTheirGroundBringsIntoThePicture) {
+  const auto bumps = [](glm::dvec2 p) { return 6 * std::sin(p.x * 0.35) * std::sin(p.y * 0.31); };
+  const HostTerrain terrain = make_hills(bumps);
+  FixedLevelOptions cut = cut_of(terrain, 300, 150);
+  cut.canopy_m = 0;
+  cut.skip_back_faces = false;
+  const FixedTriangles all = all_of(terrain, 300);
+  size_t by_ground = 0;
+  for (int view_number = 0; view_number < 24; ++view_number) {
+    const glm::dvec2 at(5040 + 23 * view_number, -6980 + 8 * view_number);
+    const View view =
+        View::look({at, 7}, 2.4 * view_number, 0.12 + 0.02 * (view_number % 8), 0.5, {640, 480}, 0.1, 1e4);
+    const ById kept = by_id(triangles_of(terrain, view, cut));
+    for (size_t i = 0; i < all.size(); ++i) {
+      const Seen is = seen(all, i, view, 120);
+      EXPECT_TRUE(kept.contains(all.id()[i].bits) || !is.ground) << "view " << view_number << ", triangle " << i;
+      by_ground += is.ground && !is.plane;
+    }
+  }
+  EXPECT_GT(by_ground, 20u);
 }
 
 TEST(HostTerrain, PlantsStandOnTheHostsGround) {
