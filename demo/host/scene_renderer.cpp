@@ -5,10 +5,12 @@
 
 #include <sward/vegetation/wind_textures.h>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <string_view>
 
 #include "host/gpu_timer.h"
@@ -108,9 +110,18 @@ Expected<Programs> build_programs(const std::vector<Layer>& layers, TerrainSourc
   return programs;
 }
 
+// Kinds of plants that are left out, from the layer's fault `first` on.
+void tell_faults(const VegetationRenderer& layer, size_t first = 0) {
+  for (const Error& fault : std::span(layer.faults()).subspan(first))
+    std::fprintf(stderr, "sward: warning: %s; the species is left out\n", fault.message.c_str());
+}
+
 Expected<void> set_wind_of(Programs& programs, const WindTextures* wind) {
-  for (VegetationRenderer& layer : programs.vegetation)
+  for (VegetationRenderer& layer : programs.vegetation) {
+    const size_t told = layer.faults().size();
     if (auto set = layer.set_wind(wind); !set) return set;
+    tell_faults(layer, told);
+  }
   return {};
 }
 
@@ -348,6 +359,9 @@ Expected<void> SceneRenderer::try_programs(const Scene& scene, const SceneTerrai
   const auto wind = WindTextures::create();
   if (!wind) return tl::unexpected(wind.error());
   if (auto set = set_wind_of(*programs, &*wind); !set) return set;
+  // A kind that does not build is left out of what is there from the start, but nothing is exchanged for it.
+  for (const VegetationRenderer& layer : programs->vegetation)
+    if (!layer.faults().empty()) return tl::unexpected(layer.faults().front());
   if (auto arrows = WindOverlay::create(shaders, bindings); !arrows) return tl::unexpected(arrows.error());
   if (auto balls = BallRenderer::create(shaders, bindings); !balls) return tl::unexpected(balls.error());
   return {};
@@ -394,6 +408,7 @@ Expected<SceneRenderer> SceneRenderer::create(const Scene& scene, const SceneTer
   auto impl = std::unique_ptr<Impl>(new Impl{terrain, scene.directory, std::move(*library), bindings, scene.layers,
                                              std::move(*frame), std::move(ground), std::move(*cpu), std::move(clipmap),
                                              std::move(*programs), GpuTimer(timed), GpuTimer(timed), GpuTimer(timed)});
+  for (const VegetationRenderer& layer : impl->programs.vegetation) tell_faults(layer);
   impl->replay = std::move(*replay);
   impl->air.wind = std::move(wind);
   if (auto moved = impl->take_wind(); !moved) return tl::unexpected(moved.error());
@@ -486,6 +501,7 @@ Expected<void> SceneRenderer::set_layer(size_t index, const Layer& layer) {
   auto vegetation = build_vegetation(layer, impl_->source(), impl_->shaders, impl_->bindings);
   if (!vegetation) return tl::unexpected(vegetation.error());
   if (auto set = vegetation->set_wind(impl_->air.textures ? &*impl_->air.textures : nullptr); !set) return set;
+  if (!vegetation->faults().empty()) return tl::unexpected(vegetation->faults().front());
   if (impl_->clipmap) {
     const SceneTerrain& terrain = impl_->terrain;
     auto seeder = ClipmapSeeder::create(layer, terrain.surface(), terrain.colors(), impl_->shaders, impl_->bindings);

@@ -67,6 +67,24 @@ TEST_F(CliPictures, OptionsChangeThePicture) {
 }
 
 // The cells of a contact sheet of a camera that stands, where nothing moves, are the picture that render makes.
+// The rest of the scene is drawn, and what is wrong is said.
+TEST_F(CliPictures, AKindThatDoesNotCompileIsLeftOut) {
+  SWARD_NEEDS_GL();
+  const std::string reeds = (inputs() / "reeds.toml").string();
+  cli::write_file(inputs() / "reed.glsl", "#include \"common_shoot.glsl\"\nint two = three;\n");
+  cli::write_file(reeds, cli::read_file(scene()) +
+                             "[[layer]]\nname = \"reeds\"\nhorizon_m = 10.0\ndensity = 5.0\n"
+                             "[[layer.species]]\nname = \"reed\"\nkind = \"custom\"\nhsv = [77.0, 0.46, 0.43]\n"
+                             "custom = { functions = \"reed.glsl\", shoots = 6 }\n");
+  const std::string with = camera() + "--samples 1 --size 96x64 ";
+  ASSERT_EQ(run("render " + scene() + with + "-o without.ppm").status, 0);
+  const cli::Result result = run("render " + reeds + with + "-o with.ppm");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("sward: warning: layer 'reeds': species 'reed'"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("reed.glsl:2"), std::string::npos) << result.err;
+  EXPECT_TRUE(cli::read_file(folder() / "with.ppm") == cli::read_file(folder() / "without.ppm"));
+}
+
 TEST_F(CliPictures, ContactSheetsHoldFramesSideBySide) {
   SWARD_NEEDS_GL();
   ASSERT_EQ(run("render " + scene() + camera() + "--size 64x48 --samples 1 -o a.ppm").status, 0);

@@ -3,7 +3,8 @@
 
 // What growth draws of kinds other than blades: tufts, flowers, kinds of a host's own.
 #include <sward/vegetation/blade_shape.h>
-
+#include <sward/vegetation/wind_textures.h>
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -379,17 +380,22 @@ TEST_F(Kinds, AKindThatDoesNotCompileIsNamedWithItsLineAndLeavesTheRestRunning) 
   text.replace(at, 11, "leaf.no_such");
   shaders.add_source("cattail.glsl", text);
   const auto broken = VegetationRenderer::create(patch.layer(), shaders);
-  ASSERT_FALSE(broken);
-  const std::string& message = broken.error().message;
+  ASSERT_TRUE(broken);
+  ASSERT_EQ(broken->faults().size(), 1u);
+  const std::string message = broken->faults()[0].message;
   EXPECT_NE(message.find("cattail.glsl:" + std::to_string(line)), std::string::npos) << message;
   EXPECT_NE(message.find("species 'cattail'"), std::string::npos) << message;
   EXPECT_NE(message.find("layer '" + patch.layer().name + "'"), std::string::npos) << message;
-  take_messages();
+  const std::vector<std::string> log = take_messages();
+  EXPECT_TRUE(std::any_of(log.begin(), log.end(), [&](const std::string& said) {
+    return said.find("cattail.glsl:" + std::to_string(line)) != std::string::npos;
+  })) << "GL's debug log";
 
   const auto missing = VegetationRenderer::create(patch.layer(), gl::ShaderLibrary());
-  ASSERT_FALSE(missing);
-  EXPECT_NE(missing.error().message.find("no shader file 'cattail.glsl'"), std::string::npos)
-      << missing.error().message;
+  ASSERT_TRUE(missing);
+  ASSERT_EQ(missing->faults().size(), 1u);
+  EXPECT_NE(missing->faults()[0].message.find("no shader file 'cattail.glsl'"), std::string::npos);
+  take_messages();
 
   render(patch, from_above(14));
   EXPECT_GT(patch.renderer().stats(true).primitives, 1000u);
@@ -403,9 +409,46 @@ TEST_F(Kinds, AFunctionThatIsMissingIsAnError) {
   text.replace(at, 16, "vec2 kind_shoot_");
   shaders.add_source("cattail.glsl", text);
   const auto broken = VegetationRenderer::create(sparse(cattail_species(), 2), shaders);
-  ASSERT_FALSE(broken);
-  EXPECT_NE(broken.error().message.find("kind_shoots"), std::string::npos) << broken.error().message;
+  ASSERT_TRUE(broken);
+  ASSERT_EQ(broken->faults().size(), 1u);
+  EXPECT_NE(broken->faults()[0].message.find("kind_shoots"), std::string::npos) << broken->faults()[0].message;
   take_messages();
+}
+
+/// Grass and cattails, each on its half of the map.
+Layer grass_and_cattails() {
+  Layer layer = sparse(cattail_species(), 2);
+  Species grass = grass_of("grass", k_brown);
+  grass.max_segments = 1;
+  layer.species.push_back(grass);
+  return layer;
+}
+
+TEST_F(Kinds, WhatStandsBesideABrokenKindIsDrawnInStillAirAndInWind) {
+  const ColorMap map = painted_map(8, [](int column, int) { return column < 4 ? k_green : k_brown; });
+  gl::ShaderLibrary whole, broken;
+  whole.add_source("cattail.glsl", cattail());
+  broken.add_source("cattail.glsl", cattail() + "\nint no_such = nothing;\n");
+  Patch sound(grass_and_cattails(), map, {}, whole), maimed(grass_and_cattails(), map, {}, broken);
+  EXPECT_TRUE(sound.renderer().faults().empty());
+  ASSERT_EQ(maimed.renderer().faults().size(), 1u);
+  take_messages();
+  auto wind = WindTextures::create();
+  ASSERT_TRUE(wind);
+  for (const WindTextures* air :
+       {static_cast<const WindTextures*>(nullptr), static_cast<const WindTextures*>(&*wind)}) {
+    ASSERT_TRUE(maimed.renderer().set_wind(air));
+    ASSERT_TRUE(sound.renderer().set_wind(air));
+    render(sound, from_above(14));
+    render(maimed, from_above(14));
+    const auto plants = sound.plants_of_gpu();
+    const auto grass = std::count_if(plants.begin(), plants.end(), [](const Plant& p) { return p.species == 1; });
+    ASSERT_GT(grass, 50);
+    ASSERT_LT(grass, long(plants.size()) - 50);
+    EXPECT_EQ(sound.renderer().stats(true).primitives, uint64_t(grass + 7 * (long(plants.size()) - grass)));
+    EXPECT_EQ(maimed.renderer().stats(true).primitives, uint64_t(grass)) << "a triangle each";
+    EXPECT_EQ(maimed.plants_of_gpu().size(), plants.size()) << "places stay theirs";
+  }
 }
 
 }  // namespace

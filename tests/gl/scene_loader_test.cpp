@@ -98,6 +98,21 @@ TEST_F(SceneLoaderTest, TellsWhatIsWrongAndLoadsAgain) {
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("grass_blade.frag.glsl:1"), std::string::npos) << refused.error().message;
 
+  // A kind that a first scene would go without is no reason to exchange a whole one.
+  gl::ShaderLibrary shaders;
+  shaders.add_source("reed.glsl", "nothing\n");
+  const auto with_reeds = [] {
+    auto source = read(80);
+    Species& reed = source->scene.layers[0].species[0];
+    reed.kind = PlantKind::custom;
+    reed.custom.functions = "reed.glsl";
+    return source;
+  };
+  loader.start(with_reeds, shaders);
+  auto maimed = wait(loader);
+  ASSERT_FALSE(maimed);
+  EXPECT_NE(maimed.error().message.find("reed.glsl:1"), std::string::npos) << maimed.error().message;
+
   loader.start([] { return read(80); }, gl::ShaderLibrary());
   EXPECT_TRUE(wait(loader));
 }

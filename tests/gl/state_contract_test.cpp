@@ -170,7 +170,10 @@ std::vector<Entry> gl_plumbing() {
          check(gl::SlopeMap::create(*o.world.ground.field));
          check(gl::SlopeMap::create(*o.world.ground.surface, {.whole_texels = 8, .window_texels = 512}));
        }},
-      {"SlopeMap::create_level", [](Objects&) { check(gl::SlopeMap::create_level({-50, -40}, {100, 80})); }},
+      {"SlopeMap::create_level",
+       [](Objects&) {
+         check(gl::SlopeMap::create_level({-50, -40}, {100, 80}));
+       }},
       {"SlopeMap::follow",
        [](Objects& o) {
          o.slopes.follow(*o.world.ground.surface, {0, 0}, 100);
@@ -420,11 +423,11 @@ const std::set<std::string> k_without_gl = {
     "ShaderLibrary::binaries", "ShaderLibrary::resolve", "SlopeMap::changed", "SlopeMap::settled", "SlopeMap::texture",
     "SlopeMap::layers", "SlopeMap::layer_min", "SlopeMap::layer_size", "SlopeMap::repeats", "SlopeMap::reach",
     "SlopeMap::spacing", "ClipmapRenderer::triangles", "ClipmapRenderer::blocks", "SlotBuffer::id",
-    "TerrainRenderer::triangles", "VegetationRenderer::layer", "ClipmapSeeder::layer", "ClipmapSeeder::set_season",
-    "ClipmapSeeder::changed", "ClipmapSeeder::records", "ClipmapSeeder::exclusions", "ClipmapSeeder::draws",
-    "ClipmapSeeder::draws_offset", "ClipmapSeeder::most_clusters", "ClipmapSeeder::seeded", "WindTextures::block",
-    "WindTextures::maps", "WindTextures::grid", "WindTextures::painted", "DisturbanceTextures::ground",
-    "DisturbanceTextures::block"};
+    "TerrainRenderer::triangles", "VegetationRenderer::layer", "VegetationRenderer::faults", "ClipmapSeeder::layer",
+    "ClipmapSeeder::set_season", "ClipmapSeeder::changed", "ClipmapSeeder::records", "ClipmapSeeder::exclusions",
+    "ClipmapSeeder::draws", "ClipmapSeeder::draws_offset", "ClipmapSeeder::most_clusters", "ClipmapSeeder::seeded",
+    "WindTextures::block", "WindTextures::maps", "WindTextures::grid", "WindTextures::painted",
+    "DisturbanceTextures::ground", "DisturbanceTextures::block"};
 
 /// Functions that a header declares in public, as class::function; constructors, destructors and operators left out.
 std::set<std::string> declared_functions(const std::filesystem::path& header) {

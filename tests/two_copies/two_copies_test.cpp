@@ -32,15 +32,16 @@ class Copy {
   Copy(const Copy&) = delete;
   Copy& operator=(const Copy&) = delete;
 
+  /// A function is named by its type alone: this program has none of them.
   template <class Function>
-  Function* find(Function&, const char* name) const {
+  Function* find(const char* name) const {
     return reinterpret_cast<Function*>(dlsym(library_, name));
   }
-  bool create() const { return find(copy_create, "copy_create")(); }
-  bool draw(GLuint framebuffer) const { return find(copy_draw, "copy_draw")(framebuffer, k_side); }
-  void destroy() const { find(copy_destroy, "copy_destroy")(); }
-  void count_asserts() const { find(copy_count_asserts, "copy_count_asserts")(); }
-  int provoke_assert() const { return find(copy_provoke_assert, "copy_provoke_assert")(); }
+  bool create() const { return find<decltype(copy_create)>("copy_create")(); }
+  bool draw(GLuint framebuffer) const { return find<decltype(copy_draw)>("copy_draw")(framebuffer, k_side); }
+  void destroy() const { find<decltype(copy_destroy)>("copy_destroy")(); }
+  void count_asserts() const { find<decltype(copy_count_asserts)>("copy_count_asserts")(); }
+  int provoke_assert() const { return find<decltype(copy_provoke_assert)>("copy_provoke_assert")(); }
 
  private:
   std::string path_;

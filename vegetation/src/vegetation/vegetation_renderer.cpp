@@ -113,6 +113,10 @@ const Layer& VegetationRenderer::layer() const {
   return impl_->layer;
 }
 
+const std::vector<Error>& VegetationRenderer::faults() const {
+  return impl_->growth.faults();
+}
+
 Expected<void> VegetationRenderer::upload(const Seeding& seeding, const FixedTriangles& triangles, const View& view) {
   Impl& self = *impl_;
   self.uploaded = false;

@@ -123,7 +123,9 @@ Expected<GrowthStage> GrowthStage::create(const Layer& layer, const gl::ShaderLi
   GrowthStage stage;
   stage.draws_in_parts_ = gl::software_renderer();
   for (const Species& species : layer.species) {
-    if (auto added = stage.add_species(layer, species, shaders, bindings); !added) return tl::unexpected(added.error());
+    auto added = stage.add_species(layer, species, shaders, bindings);
+    auto settled = stage.settle(std::move(added), species, stage.passes_.back());
+    if (!settled) return tl::unexpected(settled.error());
   }
   auto shapes = make_blade_shapes();
   if (!shapes) return tl::unexpected(shapes.error());
@@ -147,6 +149,18 @@ Expected<void> GrowthStage::add_species(const Layer& layer, const Species& speci
     passes.push_back({row, GLsizei(instances_of(kind, layer, species)), part_of(kind, layer, species),
                       glGetUniformLocation(programs_[row].id(), "sward_images"), add_mesh(species)});
   }
+  return {};
+}
+
+// A host's kind is the host's text: the rest goes on without it. GL's debug log, where there is one, says so too.
+Expected<void> GrowthStage::settle(Expected<void> built, const Species& species, std::vector<Pass>& passes) {
+  if (built || species.kind != PlantKind::custom) return built;
+  passes.clear();
+  const std::string& message = faults_.emplace_back(built.error()).message;
+  GLint longest = 0;
+  glGetIntegerv(GL_MAX_DEBUG_MESSAGE_LENGTH, &longest);
+  glDebugMessageInsert(GL_DEBUG_SOURCE_THIRD_PARTY, GL_DEBUG_TYPE_ERROR, 0, GL_DEBUG_SEVERITY_HIGH,
+                       std::min(GLsizei(message.size()), longest - 1), message.c_str());
   return {};
 }
 
@@ -181,7 +195,9 @@ Expected<void> GrowthStage::build_wind(const Layer& layer, const gl::ShaderLibra
                                        const gl::Bindings& bindings) {
   if (wind_shape_.id() != 0) return {};
   for (size_t i = 0; i < layer.species.size(); ++i) {
-    if (auto built = build_wind_of(layer, layer.species[i], passes_[i], shaders, bindings); !built) return built;
+    if (passes_[i].empty()) continue;
+    auto built = build_wind_of(layer, layer.species[i], passes_[i], shaders, bindings);
+    if (auto settled = settle(std::move(built), layer.species[i], passes_[i]); !settled) return settled;
   }
   const auto shapes = make_wind_shapes();
   if (!shapes) return tl::unexpected(shapes.error());

@@ -102,6 +102,7 @@ void set_stream(const gl::VertexArray& array, GLuint buffer);
 
 class GrowthStage {
  public:
+  /// Fails where a program of sward's own does not build; a host's kind that does not is left out (faults()).
   static Expected<GrowthStage> create(const Layer& layer, const gl::ShaderLibrary& shaders,
                                       const gl::Bindings& bindings);
   /// Whether `run` needs the counts of clusters, which means waiting for classification.
@@ -112,6 +113,7 @@ class GrowthStage {
            const WindTextures* wind);
   /// The programs and the table for plants that move, once; `layer`, `shaders` and `bindings` as created with.
   Expected<void> build_wind(const Layer& layer, const gl::ShaderLibrary& shaders, const gl::Bindings& bindings);
+  const std::vector<Error>& faults() const { return faults_; }
   size_t gpu_bytes() const;
 
  private:
@@ -127,6 +129,7 @@ class GrowthStage {
   Expected<void> add_species(const Layer& layer, const Species& species, const gl::ShaderLibrary& shaders,
                              const gl::Bindings& bindings);
   GLuint add_mesh(const Species& species);
+  Expected<void> settle(Expected<void> built, const Species& species, std::vector<Pass>& passes);
   Expected<void> build_wind_of(const Layer& layer, const Species& species, std::span<Pass> passes,
                                const gl::ShaderLibrary& shaders, const gl::Bindings& bindings);
   Expected<size_t> program_row(const std::string& name, const std::function<Expected<gl::Program>()>& build);
@@ -134,7 +137,8 @@ class GrowthStage {
 
   std::vector<gl::Program> programs_;
   std::vector<std::string> program_names_;  ///< What each was built of: species of the same share it.
-  std::vector<std::vector<Pass>> passes_;   ///< By species.
+  std::vector<std::vector<Pass>> passes_;   ///< By species; none of what is left out.
+  std::vector<Error> faults_;
   std::vector<gl::Buffer> mesh_buffers_;
   std::vector<gl::Texture> meshes_;  ///< One a species of kind mesh.
   gl::Buffer blade_shape_buffer_;

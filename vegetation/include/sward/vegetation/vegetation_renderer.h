@@ -8,6 +8,7 @@
 #include <sward/gl/frame.h>
 #include <sward/gl/ground.h>
 #include <sward/gl/shader_library.h>
+#include <sward/terrain/error.h>
 #include <sward/vegetation/plants.h>
 #include <sward/vegetation/seeding.h>
 #include <memory>
@@ -37,7 +38,8 @@ struct VegetationStats {
 class SWARD_API VegetationRenderer {
  public:
   /// Compiles classification and one growth program a plant kind in use. Fails on a layer that does not validate, on a
-  /// shader's error (with the driver's log) and on a GL below 4.5. Leaves all state as it was.
+  /// shader's error (with the driver's log) and on a GL below 4.5. A species of a host's own kind whose functions do not
+  /// build is left out instead, and named in faults(). Leaves all state as it was.
   static Expected<VegetationRenderer> create(const Layer& layer, const gl::ShaderLibrary& shaders,
                                              const gl::Bindings& bindings = {});
   /// The same for layers that are seeded on the GPU over a clipmap: plants stand on its drawn surface.
@@ -48,6 +50,11 @@ class SWARD_API VegetationRenderer {
   ~VegetationRenderer();
 
   const Layer& layer() const;
+
+  /// Species of hosts' own kinds (PlantKind::custom) that are not drawn, because their functions are missing or were
+  /// refused by the driver: layer, species, file, line and the driver's words of each. All else is drawn. set_wind may
+  /// add some. The same text goes to GL's debug log as from a third party (KHR_debug).
+  const std::vector<Error>& faults() const;
 
   /// The time of the year from the next classify on (Layer::season; finite, asserted): colours, heights and densities
   /// of species with seasons. Nothing is seeded or built anew, plants keep ids and places. Between two seedings too.
@@ -61,7 +68,7 @@ class SWARD_API VegetationRenderer {
   /// What plants bend and sway in from the next draw on; null: still air, as at first, and nothing of this is paid for.
   /// `wind` must live until it is replaced; what is uploaded to it is seen at once. Its time is the frame's
   /// (gl::Frame::upload). The first wind builds the programs of plants that move; fails, changing nothing, on a
-  /// shader's error. Plants' ids, places and sizes, and what read_back() gives, do not change. Binds nothing.
+  /// shader's error, and leaves out hosts' kinds that only then do not build (faults()). Plants' ids, places and sizes, and what read_back() gives, do not change. Binds nothing.
   Expected<void> set_wind(const WindTextures* wind);
 
   /// One upload of a frame's seeding and surface, for the view that they were made for; grows buffers when a frame
