@@ -50,7 +50,11 @@ sward_jobs() {
 # Configures and builds the release preset: everything, or the named targets.
 sward_build() {
   local launcher=() targets=()
-  if command -v ccache > /dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+  if command -v ccache > /dev/null; then
+    launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    # Else ccache keeps nothing that is compiled with a precompiled header.
+    export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}
+  fi
   if [ $# -gt 0 ]; then targets=(--target "$@"); fi
   sward_say "building preset release in $sward_root/build/release"
   (cd "$sward_root" && cmake --preset release --log-level=WARNING "${launcher[@]}" &&
