@@ -100,7 +100,7 @@ TEST_F(SceneLoaderTest, TellsWhatIsWrongAndLoadsAgain) {
 
   // A kind that a first scene would go without is no reason to exchange a whole one.
   gl::ShaderLibrary shaders;
-  shaders.add_source("reed.glsl", "nothing\n");
+  shaders.add_source("reed.glsl", "#include \"common_shoot.glsl\"\nint two = three;\n");
   const auto with_reeds = [] {
     auto source = read(80);
     Species& reed = source->scene.layers[0].species[0];
@@ -111,7 +111,7 @@ TEST_F(SceneLoaderTest, TellsWhatIsWrongAndLoadsAgain) {
   loader.start(with_reeds, shaders);
   auto maimed = wait(loader);
   ASSERT_FALSE(maimed);
-  EXPECT_NE(maimed.error().message.find("reed.glsl:1"), std::string::npos) << maimed.error().message;
+  EXPECT_NE(maimed.error().message.find("reed.glsl:2"), std::string::npos) << maimed.error().message;
 
   loader.start([] { return read(80); }, gl::ShaderLibrary());
   EXPECT_TRUE(wait(loader));
