@@ -24,9 +24,9 @@ int coverage_mask(float cover, float phase) {
 
 // Whether this part of a plant is left out where there is one sample a pixel. Parts are as long as a pixel, in steps of
 // two, so that the pattern stays on the plant while the eye moves.
-bool hidden_by_hash(float cover, float phase, vec4 point) {
+bool hidden_by_hash(float cover, float phase, float arc) {
   if (cover >= 1.0) return false;
-  float arc_per_px = max(fwidth(point.w), 1.0e-4);
+  float arc_per_px = max(fwidth(arc), 1.0e-4);
   float parts = exp2(floor(-log2(arc_per_px)));
-  return cover <= hash_unit(uvec2(uint(phase * 16777216.0), uint(point.w * parts)));
+  return cover <= hash_unit(uvec2(uint(phase * 16777216.0), uint(arc * parts)));
 }

@@ -22,21 +22,21 @@ vec3 petal_albedo(SpeciesParams species, float radius, float across) {
 
 vec3 head_light() {
   SpeciesParams species = sward_layer.species[sward_species];
-  float radius = strip_point.w;
+  float radius = strip_place.x;
   bool centre = strip_color.a > 0.75, whole = strip_color.a > 0.25;
   Leaf leaf;
   leaf.albedo = strip_color.rgb * (centre ? 0.7 + 0.6 * radius : k_mean_petal);
-  if (!whole) leaf.albedo = petal_albedo(species, radius, strip_normal.w);
+  if (!whole) leaf.albedo = petal_albedo(species, radius, strip_place.y);
   // Less light comes down into a bowl.
   float depth = clamp(species.own_b.w, 0.0, 1.0) * (whole ? 0.35 : 1.0 - min(radius, 1.0));
   leaf.sky = vec3(1.0 - 0.75 * depth);
-  leaf.sun = (1.0 - 0.4 * depth) * host_shadow(strip_point.xyz);
-  return apply_haze(lit_leaf(species, leaf), strip_point.xyz);
+  leaf.sun = (1.0 - 0.4 * depth) * host_shadow(strip_point);
+  return apply_haze(lit_leaf(species, leaf), strip_point);
 }
 
 void main() {
   int mask = strip_mask();
   if (mask == 0) discard;
   gl_SampleMask[0] = mask;
-  color = vec4(encode_output(strip_is_shadow() ? shadow_color(strip_self.w) : head_light()), 1.0);
+  color = vec4(encode_output(strip_is_shadow() ? shadow_color(strip_self.y) : head_light()), 1.0);
 }

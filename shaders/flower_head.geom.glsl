@@ -28,13 +28,8 @@ layout(location = 6) in vec3 petal_root[];    // of the plant, relative to the e
 layout(location = 8) flat in vec4 petal_air[];  // wind, m/s; sway; cycle; slow cycle
 #endif
 
-layout(location = 0) out vec4 strip_point;        // relative to the eye; radius
-layout(location = 1) out vec4 strip_normal;       // towards the viewer; -1..1 across
-layout(location = 2) out vec2 strip_cover;        // share of the strip that the petal covers; gloss (leaf_gloss)
-layout(location = 3) flat out vec4 strip_color;   // linear; 0 petal, 0.5 all of the head, 1 centre
-layout(location = 4) flat out vec4 strip_ground;  // normal; melting
-layout(location = 5) flat out vec4 strip_self;    // base map coordinates below the eye; phase; shadow's strength or -1
-layout(location = 6) out vec4 strip_light;        // canopy_light: sky, sun; leaf_through; cosine for leaf_streak
+#define SWARD_LINK out
+#include "common_strip_links.glsl"
 
 // Half of the least size at which a head is drawn, pixels; smaller ones cover less.
 const float k_least_radius_px = 0.7;
@@ -107,7 +102,7 @@ void light_petal(Head head, vec3 normal, vec3 position) {
   vec3 half_way = normalize(normalize(-position) + frame.sun_direction.xyz + vec3(0.0, 0.0, 1.0e-4));
   float up = dot(normalize(normal), half_way);
   strip_normal.xyz = light.normal;
-  strip_cover.y = 0.3 * light.gloss;
+  strip_normal.w = 0.3 * light.gloss;
   strip_light = vec4(canopy_light(canopy, max(dot(plane, position - to_world(petal_root[0])), 0.0)), light.through,
                      sqrt(max(1.0 - up * up, 0.0)));
 }
@@ -117,14 +112,16 @@ void emit(Head head, vec3 p, vec3 normal, float across, float cover, vec4 color)
   vec3 seen = to_world(position);
   gl_Position = frame.clip_from_relative * vec4(seen, 1.0);
   if (dot(normal, position) > 0.0) normal = -normal;
-  strip_point = vec4(seen, length(p.xy));
-  strip_normal = vec4(to_world(normal), across);
-  strip_cover = vec2(cover * head.cover, 0.0);
+  strip_place = vec3(length(p.xy), across, cover * head.cover);
+  strip_self = vec2(petal_map[0].z, head.shadow);
+  strip_lit = vec3(0.0);
+  strip_point = seen;
+  strip_normal = vec4(to_world(normal), 0.0);
   strip_light = vec4(0.0);
   if (head.shadow < 0.0) light_petal(head, to_world(normal), seen);
   strip_color = color;
   strip_ground = vec4(to_world(petal_plane[0].xyz), 0.0);
-  strip_self = vec4(petal_map[0].xyz, head.shadow);
+  strip_map = petal_map[0].xy;
   EmitVertex();
 }
 

@@ -7,18 +7,18 @@
 #include "common_strip.glsl"
 #include "plant_kind.glsl"
 
-layout(location = 7) in vec3 strip_lit;  // of the shadow, and of the leaf where SWARD_LIT_AT_VERTICES
-
 // A factor on light, of a colour that is encoded already: the exponent of sRGB's curve.
 float encoded_factor(float factor) { return frame.sky_radiance.w == 1.0 ? pow(factor, 0.4545) : factor; }
 
+#if SWARD_LIT_AT_VERTICES
+vec3 leaf_color() { return strip_lit * encoded_factor(leaf_vein(strip_place.y) * image_detail(strip_place.yx)); }
+#else
 vec3 leaf_color() {
-  vec2 place = vec2(strip_normal.w, strip_point.w);
-  if (SWARD_LIT_AT_VERTICES == 1) return strip_lit * encoded_factor(leaf_vein(place.x) * image_detail(place));
   SpeciesParams species = sward_layer.species[sward_species];
-  Leaf leaf = kind_leaf(species, strip_color, strip_shoot(), place.y, place.x, strip_self.z);
+  Leaf leaf = kind_leaf(species, strip_color, strip_shoot(), strip_place.x, strip_place.y, strip_self.x);
   return encode_output(meadow_color(species, leaf));
 }
+#endif
 
 void main() {
   int mask = strip_mask();

@@ -1,8 +1,9 @@
 // Copyright (c) 2026 the sward authors
 // SPDX-License-Identifier: MIT
 
-// Growth of grass, and of all that is made of shoots: a line segment becomes a piece of the blade's strip; the second
-// invocation lays its shadow on the ground's plane (Papavasiliou 2015, sections 2.3 and 3.6).
+// Growth of grass, and of all that is made of shoots: a line segment becomes a piece of the blade's strip, and of its
+// shadow on the ground's plane (Papavasiliou 2015, sections 2.3 and 3.6). One invocation makes both: what is read for
+// one is read for the other, and an invocation more costs more than the vertices.
 #include "common_frame.glsl"
 #include "common_layer.glsl"
 #include "common_visible.glsl"
@@ -13,8 +14,8 @@
 #include "plant_kind.glsl"
 #include "common_stance_shape.glsl"
 
-layout(lines, invocations = SWARD_GROWTH_INVOCATIONS) in;
-layout(triangle_strip, max_vertices = 4) out;
+layout(lines) in;
+layout(triangle_strip, max_vertices = 4 * SWARD_GROWTH_INVOCATIONS) out;
 
 layout(location = 0) in vec4 line_point[];    // relative to the eye; arc length 0..1
 layout(location = 1) in vec4 line_tangent[];  // unit; half width
@@ -25,17 +26,8 @@ layout(location = 5) in vec4 line_fade[];     // melting into the ground; distan
                                               // shows, 1: round; which of the plant's shoots
 layout(location = 6) in vec3 line_root[];     // relative to the eye
 
-layout(location = 0) out vec4 strip_point;        // relative to the eye; arc length
-layout(location = 1) out vec4 strip_normal;       // towards the viewer, rounded, the ground's share in it; -1..1 across
-layout(location = 2) out vec2 strip_cover;        // share of the strip that the plant covers; gloss (leaf_gloss)
-layout(location = 3) flat out vec4 strip_color;   // ground at the root; age
-layout(location = 4) flat out vec4 strip_ground;  // normal; melting
-layout(location = 5) flat out vec4 strip_self;    // base map coordinates below the eye; phase; shadow's strength, or
-                                                  // -1 - shoot
-layout(location = 6) out vec4 strip_light;        // canopy_light: sky, sun; leaf_through; cosine for leaf_streak
-
-layout(location = 7) out vec3 strip_lit;          // the vertex's colour as the target takes it, without detail: of the
-                                                  // shadow, and of the leaf where SWARD_LIT_AT_VERTICES
+#define SWARD_LINK out
+#include "common_strip_links.glsl"
 
 layout(location = 0) uniform int sward_species;
 
@@ -105,14 +97,17 @@ VertexLight leaf_vertex(int i, Plant plant, Section s, float across, vec3 normal
 void emit(int i, Plant plant, Section s, float across, VertexLight light) {
   vec3 position = to_world(s.middle + s.side * across);
   gl_Position = frame.clip_from_relative * vec4(position, 1.0);
-  strip_point = vec4(position, line_point[i].w);
-  strip_normal = vec4(light.normal, across);
-  strip_cover = vec2(s.cover, light.gloss);
-  strip_light = light.strip;
+  strip_place = vec3(line_point[i].w, across, s.cover);
+  strip_self = vec2(line_map[i].w, plant.shadow);
   strip_lit = light.lit;
+#if !SWARD_LIT_AT_VERTICES
+  strip_point = position;
+  strip_normal = vec4(light.normal, light.gloss);
+  strip_light = light.strip;
   strip_color = line_color[i];
   strip_ground = vec4(to_world(plant.plane), line_fade[i].x);
-  strip_self = vec4(line_map[i].xyw, plant.shadow);
+  strip_map = line_map[i].xy;
+#endif
   EmitVertex();
 }
 
@@ -204,10 +199,8 @@ void main() {
   float azimuth = line_map[0].z;
   Plant plant = Plant(vec3(-sin(azimuth), cos(azimuth), 0.0), line_root[0], line_plane[0].xyz, line_fade[0].z,
                       -1.0 - line_fade[0].w, 0.0);
-  if (gl_InvocationID == 0) {
-    emit_blade(plant);
-    return;
-  }
+  emit_blade(plant);
+  if (SWARD_GROWTH_INVOCATIONS == 1) return;
   plant.shadow = ground_shadow_strength(sward_layer.layer, line_fade[0].y, plant.plane);
   if (plant.shadow > 0.01) emit_shadow(plant);
 }

@@ -82,24 +82,30 @@ Layer grass(float density) {
   return layer;
 }
 
-/// Blades drawn by a fragment program of this body; it is to write `color`.
+/// An embedded file.
+std::string text_of(std::string_view file) {
+  for (const gl::EmbeddedText& embedded : gl::embedded_shaders())
+    if (embedded.name == file) return std::string(embedded.text);
+  ADD_FAILURE() << "no file " << file;
+  return {};
+}
+
+/// Blades drawn by a fragment program of this body; it is to write `color`. It is handed all that a kind whose
+/// fragments are lit is.
 gl::ShaderLibrary with_fragments(const std::string& body) {
   gl::ShaderLibrary shaders;
+  shaders.add_source("common_strip_links.glsl", "#undef SWARD_LIT_AT_VERTICES\n#define SWARD_LIT_AT_VERTICES 0\n" +
+                                                    text_of("common_strip_links.glsl"));
   shaders.add_source("grass_blade.frag.glsl", "#include \"common_strip.glsl\"\nvoid main() {\n" + body + "\n}\n");
   return shaders;
 }
 
 /// An embedded file with a piece replaced.
 std::string changed(std::string_view file, std::string_view from, std::string_view to) {
-  for (const EmbeddedText& embedded : gl::embedded_shaders()) {
-    if (embedded.name != file) continue;
-    std::string text(embedded.text);
-    const size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << file << " has no '" << from << "'";
-    return at == std::string::npos ? text : text.replace(at, from.size(), to);
-  }
-  ADD_FAILURE() << "no file " << file;
-  return {};
+  std::string text = text_of(file);
+  const size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << file << " has no '" << from << "'";
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
 View low_view() {
@@ -138,8 +144,8 @@ glm::dvec2 streak(float sun_elevation_deg, float specular) {
   layer.species[0].shininess = 60;
   Patch patch(layer, plain_map(k_side, 8, k_green), {},
               with_fragments("float shine = leaf_streak(sward_layer.species[sward_species].optics, strip_light.w) * "
-                             "strip_cover.y;\n"
-                             "color = vec4(min(shine, 1.0), strip_point.w, 0.0, 1.0);"));
+                             "strip_normal.w;\n"
+                             "color = vec4(min(shine, 1.0), strip_place.x, 0.0, 1.0);"));
   patch.lighting = gl::Lighting::clear_day(90 * k_degree, sun_elevation_deg * k_degree);
   glm::dvec2 sum(0);
   render(patch, low_view()).each_lit([&](glm::vec3 color) { sum += double(color.x) * glm::dvec2(color.y, 1); });
@@ -178,7 +184,7 @@ CanopyLight canopy_light(float density, float sun_elevation_deg) {
   layer.species[0].width_m = {0.06f, 0.06f};
   layer.species[0].stiffness = {0.9f, 0.9f};
   Patch patch(layer, plain_map(k_side, 8, k_green), {},
-              with_fragments("color = vec4(strip_light.xy, 0.05 + 0.9 * strip_point.w, 1.0);"));
+              with_fragments("color = vec4(strip_light.xy, 0.05 + 0.9 * strip_place.x, 1.0);"));
   patch.lighting = gl::Lighting::clear_day(0, sun_elevation_deg * k_degree);
   CanopyLight light;
   double roots = 0, tips = 0;
@@ -416,7 +422,7 @@ gl::ShaderLibrary height_probe(const View& view, double slope, double fold) {
   const auto number = [](double value) { return std::to_string(value); };
   return with_fragments(
       "if (!strip_is_shadow()) discard;\n"
-      "vec3 at = strip_point.xyz + vec3(" +
+      "vec3 at = strip_point + vec3(" +
       number(view.eye.x) + ", " + number(view.eye.y) + ", " + number(view.eye.z) +
       ");\n"
       "vec2 cell = abs(fract(at.xy / 8.0) - 0.5);\n"
@@ -428,7 +434,7 @@ gl::ShaderLibrary height_probe(const View& view, double slope, double fold) {
       "float height = (at.z - ground) * " +
       number(std::cos(std::atan(slope))) +
       ";\n"
-      "color = vec4(clamp(0.5 + 10.0 * height, 0.002, 1.0), strip_self.w, 1.0, 1.0);");
+      "color = vec4(clamp(0.5 + 10.0 * height, 0.002, 1.0), strip_self.y, 1.0, 1.0);");
 }
 
 Layer casting() {
@@ -499,12 +505,11 @@ double shadow_energy(Patch& patch, float elevation_deg) {
 }
 
 TEST_F(PlantShading, ShadowsFadeAsTheSunSets) {
-  Patch patch(
-      casting(), plain_map(k_side, 8, k_green), {},
-      with_fragments("if (!strip_is_shadow()) discard;\n"
-                     "vec3 open = darkened_ground(strip_point.xyz, strip_self.xy, strip_ground.xyz, 1.0, 1.0);\n"
-                     "vec3 taken = open - shadow_color(strip_self.w);\n"
-                     "color = vec4(clamp(dot(taken, vec3(30.0)) * strip_cover.x, 0.0, 1.0), 0.0, 0.0, 1.0);"));
+  Patch patch(casting(), plain_map(k_side, 8, k_green), {},
+              with_fragments("if (!strip_is_shadow()) discard;\n"
+                             "vec3 open = darkened_ground(strip_point, strip_map, strip_ground.xyz, 1.0, 1.0);\n"
+                             "vec3 taken = open - shadow_color(strip_self.y);\n"
+                             "color = vec4(clamp(dot(taken, vec3(30.0)) * strip_place.z, 0.0, 1.0), 0.0, 0.0, 1.0);"));
   std::vector<double> energy;
   for (float elevation = 6; elevation >= -0.5f; elevation -= 0.25f) energy.push_back(shadow_energy(patch, elevation));
   EXPECT_GT(energy.front(), 10.0);

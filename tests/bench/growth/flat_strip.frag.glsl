@@ -5,17 +5,15 @@
 #include "common_frame.glsl"
 #include "common_cover.glsl"
 
-layout(location = 0) in vec4 strip_point;
-layout(location = 2) in vec2 strip_cover;
-layout(location = 3) flat in vec4 strip_color;
-layout(location = 5) flat in vec4 strip_self;
+#define SWARD_LINK in
+#include "common_strip_links.glsl"
 layout(location = 0) out vec4 color;
 
 void main() {
   int mask = k_all_samples;
-  if (frame.eye_noise.w > 1.0) mask = coverage_mask(strip_cover.x, strip_self.z);
-  else if (hidden_by_hash(strip_cover.x, strip_self.z, strip_point)) mask = 0;
+  if (frame.eye_noise.w > 1.0) mask = coverage_mask(strip_place.z, strip_self.x);
+  else if (hidden_by_hash(strip_place.z, strip_self.x, strip_place.x)) mask = 0;
   if (mask == 0) discard;
   gl_SampleMask[0] = mask;
-  color = vec4(strip_color.rgb, 1.0);
+  color = vec4(0.25, 0.35, 0.15, 1.0);
 }

@@ -69,8 +69,9 @@ Expected<gl::Program> build_program(const KindProgram& kind, const std::string& 
   if (wind) library.add_source("plant_wind.glsl", "#include \"common_wind.glsl\"\n");
   if (!functions.empty()) library.add_source("plant_kind.glsl", "#include \"" + functions + "\"\n");
   std::vector<gl::Define> defines = layer_defines(layer, bindings, wind);
-  // A host's functions may change colour within a segment.
-  defines.push_back({"SWARD_LIT_AT_VERTICES", kind.kind == PlantKind::custom ? "0" : "1"});
+  // A host's functions may change colour within a segment, and petals do.
+  const bool lit = kind.functions != nullptr;
+  defines.push_back({"SWARD_LIT_AT_VERTICES", lit ? "1" : "0"});
   return library.build({.name = kind.name,
                         .vertex = kind.vertex,
                         .tess_control = kind.tess_control,
