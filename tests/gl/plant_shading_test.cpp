@@ -84,7 +84,7 @@ Layer grass(float density) {
 
 /// An embedded file.
 std::string text_of(std::string_view file) {
-  for (const gl::EmbeddedText& embedded : gl::embedded_shaders())
+  for (const EmbeddedText& embedded : gl::embedded_shaders())
     if (embedded.name == file) return std::string(embedded.text);
   ADD_FAILURE() << "no file " << file;
   return {};
